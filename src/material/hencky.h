@@ -21,8 +21,8 @@ struct Hencky {
 
   static constexpr auto keys() {
     return std::tuple{
-        key("density", &Hencky::density, "kg/m3", "initial mass density").at_least(0.0),
-        key("young_modulus", &Hencky::young_modulus, "Pa", "Young's modulus").at_least(0.0),
+        key("density", &Hencky::density, "kg/m3", "initial mass density").at_least(0.0).required(),
+        key("young_modulus", &Hencky::young_modulus, "Pa", "Young's modulus").at_least(0.0).required(),
         key("poisson_ratio", &Hencky::poisson_ratio, "-", "Poisson's ratio").above(-1.0).below(0.5)};
   }
 

@@ -21,8 +21,8 @@ struct LinearElastic {
 
   static constexpr auto keys() {
     return std::tuple{
-        key("density", &LinearElastic::density, "kg/m3", "initial mass density").at_least(0.0),
-        key("young_modulus", &LinearElastic::young_modulus, "Pa", "Young's modulus").at_least(0.0),
+        key("density", &LinearElastic::density, "kg/m3", "initial mass density").at_least(0.0).required(),
+        key("young_modulus", &LinearElastic::young_modulus, "Pa", "Young's modulus").at_least(0.0).required(),
         key("poisson_ratio", &LinearElastic::poisson_ratio, "-", "Poisson's ratio").above(-1.0).below(0.5)};
   }
 

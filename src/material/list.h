@@ -6,10 +6,11 @@
 
 #include "material/hencky.h"
 #include "material/linear_elastic.h"
+#include "material/von_mises.h"
 
 namespace wisp {
 
-using AnyLaw = std::variant<LinearElastic, Hencky>;
+using AnyLaw = std::variant<LinearElastic, Hencky, VonMises>;
 
 /// A law with the states of its points: `old` at the start of a step, `now` the trial at its end. Explicit
 /// steps update `old` in place and may leave `now` empty.

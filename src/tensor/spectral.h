@@ -27,11 +27,12 @@ inline double log_divided_difference(double a, double b) {
 namespace detail {
 
 /// One Jacobi rotation that annihilates a(p, q), p < q, r the third index; `axes` collects the rotations.
-inline void jacobi_rotate(Mat<3>& a, Mat<3>& axes, int p, int q, int r) {
+/// Squares of a(p, q) up to `negligible` are left alone.
+inline void jacobi_rotate(Mat<3>& a, Mat<3>& axes, int p, int q, int r, double negligible) {
   const double apq = a(p, q);
-  if (apq == 0.0) return;
+  if (apq * apq <= negligible) return;
   const double difference = a(q, q) - a(p, p);
-  // tan of the smaller angle; the hypotenuse keeps it finite where apq is tiny beside the difference
+  // tan of the smaller angle, finite because apq is not negligible
   const double t =
       2.0 * apq /
       (difference + std::copysign(std::sqrt(difference * difference + 4.0 * apq * apq), difference));
@@ -63,16 +64,22 @@ inline Spectrum<dim> spectrum(const Sym<dim>& s) {
   if constexpr (dim == 2) {
     const double mean = 0.5 * (s[0] + s[1]);
     const double half = 0.5 * (s[0] - s[1]);
-    const double radius = std::sqrt(half * half + s[3] * s[3]);
+    // the larger of both scales the root, or b_xy = 1e-160 beside half = 0 would underflow
+    const double scale = std::max(std::abs(half), std::abs(s[3]));
+    double radius = 0.0;
     double c = 1.0;
     double n = 0.0;
-    if (radius > 0.0) {  // the half angle, from the larger of cosine and sine
-      if (half >= 0.0) {
-        c = std::sqrt(0.5 * (1.0 + half / radius));
-        n = 0.5 * s[3] / (radius * c);
+    if (scale > 0.0) {
+      const double root = std::sqrt(half / scale * (half / scale) + s[3] / scale * (s[3] / scale));
+      radius = scale * root;
+      const double cos2 = half / scale / root;
+      const double sin2 = s[3] / scale / root;
+      if (cos2 >= 0.0) {  // the half angle, from the larger of cosine and sine
+        c = std::sqrt(0.5 * (1.0 + cos2));
+        n = 0.5 * sin2 / c;
       } else {
-        n = std::sqrt(0.5 * (1.0 - half / radius));
-        c = 0.5 * s[3] / (radius * n);
+        n = std::sqrt(0.5 * (1.0 - cos2));
+        c = 0.5 * sin2 / n;
       }
     }
     result.values << mean + radius, mean - radius, s[2];
@@ -80,14 +87,13 @@ inline Spectrum<dim> spectrum(const Sym<dim>& s) {
   } else {
     Mat<3> a = matrix<3>(s);
     result.axes.setIdentity();
-    const double enough =
-        1e-36 * a.squaredNorm();  // convergence is quadratic: one sweep from 1e-18 of the norm
+    const double enough = 1e-36 * a.squaredNorm();  // 1e-18 of the norm is below rounding
     for (int sweep = 0; sweep < 12; ++sweep) {
       const double rest = a(0, 1) * a(0, 1) + a(1, 2) * a(1, 2) + a(0, 2) * a(0, 2);
       if (!(rest > enough)) break;  // also ends on NaN
-      detail::jacobi_rotate(a, result.axes, 0, 1, 2);
-      detail::jacobi_rotate(a, result.axes, 0, 2, 1);
-      detail::jacobi_rotate(a, result.axes, 1, 2, 0);
+      detail::jacobi_rotate(a, result.axes, 0, 1, 2, 0.25 * enough);
+      detail::jacobi_rotate(a, result.axes, 0, 2, 1, 0.25 * enough);
+      detail::jacobi_rotate(a, result.axes, 1, 2, 0, 0.25 * enough);
     }
     result.values = a.diagonal();
   }
@@ -101,8 +107,8 @@ inline Sym<dim> compose(const Vec<3>& values, const Mat<dim>& axes) {
   if constexpr (dim == 2) {
     const double c = axes(0, 0);
     const double n = axes(1, 0);
-    const double difference = values[0] - values[1];
-    s << values[1] + difference * c * c, values[0] - difference * c * c, values[2], difference * c * n;
+    s << values[0] * c * c + values[1] * n * n, values[0] * n * n + values[1] * c * c, values[2],
+        (values[0] - values[1]) * c * n;
   } else {
     const Mat<3> scaled = axes * values.asDiagonal();
     for (int a = 0; a < 6; ++a) s[a] = scaled.row(sym_i<3>[a]).dot(axes.row(sym_j<3>[a]));
