@@ -7,8 +7,8 @@
 
 namespace wisp {
 
-void DofMap::number_owned(std::span<const char> owned, std::span<const char> active, std::span<const char> fixed,
-                          FixedUnknowns mode) {
+void DofMap::number_owned(std::span<const char> owned, std::span<const char> active,
+                          std::span<const char> fixed, FixedUnknowns mode) {
   const auto m = static_cast<std::size_t>(components_);
   if (components_ < 1 || components_ > 3) input_error("unknowns have 1 to 3 components, not {}", components_);
   if (active.size() != owned.size() || (!fixed.empty() && fixed.size() != m * owned.size()))

@@ -44,15 +44,16 @@ enum class FixedUnknowns {
   unit_rows,  ///< they keep a number and a row that says x = 0: all blocks stay whole, which multigrid needs
 };
 
-/// Numbers of the unknowns (f, c), component c of grid function f. Contiguous over all ranks, rank by rank, in the order of
-/// the local functions; -1 where the function is inactive or the unknown removed. Ghosts carry the number of their owner.
-/// Local dense arrays hold unknown (f, c) at f * components + c and cover all local functions.
+/// Numbers of the unknowns (f, c), component c of grid function f. Contiguous over all ranks, rank by rank,
+/// in the order of the local functions; -1 where the function is inactive or the unknown removed. Ghosts
+/// carry the number of their owner. Local dense arrays hold unknown (f, c) at f * components + c and cover
+/// all local functions.
 class DofMap {
  public:
   DofMap() = default;
 
-  /// `active`: n_local flags; `fixed`: n_local*components flags, or empty if none is. Both must agree on owners and
-  /// ghosts. Collective.
+  /// `active`: n_local flags; `fixed`: n_local*components flags, or empty if none is. Both must agree on
+  /// owners and ghosts. Collective.
   template <GhostExchange H>
   DofMap(const H& halo, int components, std::span<const char> active, std::span<const char> fixed = {},
          FixedUnknowns mode = FixedUnknowns::removed)
@@ -88,9 +89,11 @@ class DofMap {
            n_global_ == other.n_global_ && first_ == other.first_;
   }
 
-  /// Local dense array (n_local x components) to this rank's entries of a vector (n_owned); zero at prescribed unknowns.
+  /// Local dense array (n_local x components) to this rank's entries of a vector (n_owned); zero at
+  /// prescribed unknowns.
   void gather(std::span<const double> local, std::span<double> owned) const;
-  /// This rank's entries of a vector to the owned part of a local dense array; zero where there is no free unknown.
+  /// This rank's entries of a vector to the owned part of a local dense array; zero where there is no free
+  /// unknown.
   void scatter_owned(std::span<const double> owned, std::span<double> local) const;
   /// The same, and then the ghosts. Collective.
   template <GhostExchange H>

@@ -40,10 +40,10 @@ struct Sample {
 
 Eigen::MatrixXd dense_of(::Mat mat) {
   PetscInt n = 0;
-  check_petsc(MatGetSize(mat, &n, nullptr), "read");
+  petsc(MatGetSize(mat, &n, nullptr));
   Eigen::MatrixXd dense(n, n);
   for (PetscInt i = 0; i < n; ++i)
-    for (PetscInt j = 0; j < n; ++j) check_petsc(MatGetValue(mat, i, j, &dense(i, j)), "read");
+    for (PetscInt j = 0; j < n; ++j) petsc(MatGetValue(mat, i, j, &dense(i, j)));
   return dense;
 }
 
@@ -81,7 +81,8 @@ TEST_P(Blocks, become_a_petsc_matrix_without_the_inactive_and_fixed_unknowns) {
     ASSERT_EQ(a.rows(), dofs.n_global());
     for (int i = 0; i < a.rows(); ++i)
       for (int j = 0; j < a.cols(); ++j) {
-        const int p = dofs.owned()[static_cast<std::size_t>(i)], q = dofs.owned()[static_cast<std::size_t>(j)];
+        const int p = dofs.owned()[static_cast<std::size_t>(i)],
+                  q = dofs.owned()[static_cast<std::size_t>(j)];
         const bool both_free = dofs.is_free(p / b, p % b) && dofs.is_free(q / b, q % b);
         if (both_free) {
           EXPECT_EQ(a(i, j), s.dense(p, q));
@@ -95,7 +96,8 @@ TEST_P(Blocks, become_a_petsc_matrix_without_the_inactive_and_fixed_unknowns) {
 TEST(BlockMatrix, scalar_matrix_serves_several_columns) {
   const Sample s(20, 1, false);
   for (int m = 1; m <= 4; ++m) {
-    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> x = Eigen::MatrixXd::Random(20, m);
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> x =
+        Eigen::MatrixXd::Random(20, m);
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> y(20, m);
     const auto size = static_cast<std::size_t>(20 * m);
     s.sparse.multiply_columns({x.data(), size}, {y.data(), size}, m);
@@ -132,7 +134,7 @@ TEST(BlockMatrix, keeps_an_unchanged_pattern_and_the_petsc_matrix_over_it) {
   system.assign(s.sparse, dofs);
   EXPECT_EQ(system.structure(), structure);
   double value = 0.0;
-  check_petsc(MatGetValue(system.mat(), 0, 3, &value), "read");
+  petsc(MatGetValue(system.mat(), 0, 3, &value));
   EXPECT_EQ(value, 0.25);
   s.sparse.begin_pattern(9);
   s.sparse.add_element(s.elements[0]);
