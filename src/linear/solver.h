@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/describe.h"
+#include "core/error.h"
 #include "linear/system_matrix.h"
 
 namespace wisp {

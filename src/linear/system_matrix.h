@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/error.h"
 #include "linear/block_matrix.h"
 #include "linear/dof_map.h"
 #include "linear/petsc.h"
