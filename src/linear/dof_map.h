@@ -2,41 +2,14 @@
 #pragma once
 #include <mpi.h>
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "parallel/halo.h"
+
 namespace wisp {
-
-/// What the numbering needs to know of the grid functions of a rank: `Halo` of the room `parallel` is one.
-template <class H>
-concept GhostExchange = requires(const H& halo, int f, double* values, int* numbers) {
-  { halo.n_local() } -> std::convertible_to<int>;
-  { halo.owns(f) } -> std::convertible_to<bool>;
-  { halo.serial() } -> std::convertible_to<bool>;
-  { halo.comm() } -> std::convertible_to<MPI_Comm>;
-  halo.add(values, 1);     // ghosts are added to their owners
-  halo.update(values, 1);  // owners are copied to their ghosts
-  halo.update(numbers, 1);
-};
-
-/// The functions of a problem on one rank: each is owned and none is a ghost.
-class SerialExchange {
- public:
-  explicit SerialExchange(int n_local) : n_local_(n_local) {}
-  int n_local() const { return n_local_; }
-  bool owns(int) const { return true; }
-  bool serial() const { return true; }
-  MPI_Comm comm() const { return MPI_COMM_SELF; }
-  void add(double*, int) const {}
-  void update(double*, int) const {}
-  void update(int*, int) const {}
-
- private:
-  int n_local_;
-};
 
 /// What becomes of unknowns with a prescribed value.
 enum class FixedUnknowns {
@@ -54,15 +27,8 @@ class DofMap {
 
   /// `active`: n_local flags; `fixed`: n_local*components flags, or empty if none is. Both must agree on
   /// owners and ghosts. Collective.
-  template <GhostExchange H>
-  DofMap(const H& halo, int components, std::span<const char> active, std::span<const char> fixed = {},
-         FixedUnknowns mode = FixedUnknowns::removed)
-      : components_(components), comm_(halo.comm()), serial_(halo.serial()) {
-    std::vector<char> owned(static_cast<std::size_t>(halo.n_local()));
-    for (std::size_t f = 0; f < owned.size(); ++f) owned[f] = halo.owns(static_cast<int>(f));
-    number_owned(owned, active, fixed, mode);
-    halo.update(numbers_.data(), components_);
-  }
+  DofMap(const Halo& halo, int components, std::span<const char> active, std::span<const char> fixed = {},
+         FixedUnknowns mode = FixedUnknowns::removed);
 
   int components() const { return components_; }
   int n_local() const { return components_ == 0 ? 0 : static_cast<int>(numbers_.size()) / components_; }
@@ -96,15 +62,13 @@ class DofMap {
   /// unknown.
   void scatter_owned(std::span<const double> owned, std::span<double> local) const;
   /// The same, and then the ghosts. Collective.
-  template <GhostExchange H>
-  void scatter(std::span<const double> owned, std::span<double> local, const H& halo) const {
+  void scatter(std::span<const double> owned, std::span<double> local, const Halo& halo) const {
     scatter_owned(owned, local);
     halo.update(local.data(), components_);
   }
 
  private:
-  void number_owned(std::span<const char> owned, std::span<const char> active, std::span<const char> fixed,
-                    FixedUnknowns mode);
+  void number_globally();
 
   int components_ = 0;
   int first_ = 0;

@@ -189,4 +189,15 @@ SolveReport LinearSolver::solve(const SystemMatrix& matrix, std::span<const doub
   return report;
 }
 
+SolveReport LinearSolver::solve(const SystemMatrix& matrix, const DofMap& dofs, const Halo& halo,
+                                std::span<const double> rhs, std::span<double> solution, bool keep) {
+  b_.resize(static_cast<std::size_t>(dofs.n_owned()));
+  x_.resize(b_.size());
+  dofs.gather(rhs, b_);
+  dofs.gather(solution, x_);
+  const SolveReport report = solve(matrix, b_, x_, keep);
+  dofs.scatter(x_, solution, halo);
+  return report;
+}
+
 }  // namespace wisp

@@ -81,17 +81,8 @@ class LinearSolver {
                     bool keep = false);
   /// Between local dense arrays (n_local x components): `rhs` is complete on owners, `solution` also on
   /// ghosts.
-  template <GhostExchange H>
-  SolveReport solve(const SystemMatrix& matrix, const DofMap& dofs, const H& halo,
-                    std::span<const double> rhs, std::span<double> solution, bool keep = false) {
-    b_.resize(static_cast<std::size_t>(dofs.n_owned()));
-    x_.resize(b_.size());
-    dofs.gather(rhs, b_);
-    dofs.gather(solution, x_);
-    const SolveReport report = solve(matrix, b_, x_, keep);
-    dofs.scatter(x_, solution, halo);
-    return report;
-  }
+  SolveReport solve(const SystemMatrix& matrix, const DofMap& dofs, const Halo& halo,
+                    std::span<const double> rhs, std::span<double> solution, bool keep = false);
 
   /// Whether the last set-up chose a direct solver.
   bool direct() const { return direct_; }

@@ -71,7 +71,7 @@ TEST_P(Blocks, become_a_petsc_matrix_without_the_inactive_and_fixed_unknowns) {
   std::vector<char> active(13, 1), fixed(static_cast<std::size_t>(13 * b), 0);
   active[3] = active[12] = 0;
   fixed[0] = fixed[static_cast<std::size_t>(5 * b + b - 1)] = 1;
-  const SerialExchange halo(13);
+  const Halo halo(13);
   for (const auto mode : {FixedUnknowns::removed, FixedUnknowns::unit_rows}) {
     const DofMap dofs(halo, b, active, fixed, mode);
     EXPECT_EQ(dofs.n_global(), 11 * b - (mode == FixedUnknowns::removed ? 2 : 0));
@@ -120,7 +120,7 @@ TEST(BlockMatrix, adds_a_scalar_matrix_of_the_same_pattern) {
 TEST(BlockMatrix, keeps_an_unchanged_pattern_and_the_petsc_matrix_over_it) {
   Sample s(9, 2, false);
   const auto id = s.sparse.pattern_id();
-  const DofMap dofs(SerialExchange(9), 2, std::vector<char>(9, 1));
+  const DofMap dofs(Halo(9), 2, std::vector<char>(9, 1));
   SystemMatrix system;
   system.assign(s.sparse, dofs);
   const auto structure = system.structure();
@@ -150,7 +150,7 @@ TEST(BlockMatrix, says_which_entry_a_pattern_lacks) {
 }
 
 TEST(DofMap, gathers_and_scatters_free_unknowns_only) {
-  const SerialExchange halo(4);
+  const Halo halo(4);
   const std::vector<char> active{1, 0, 1, 1}, fixed{0, 1, 0, 0, 0, 0, 1, 0};
   const DofMap dofs(halo, 2, active, fixed);
   ASSERT_EQ(dofs.n_owned(), 4);

@@ -30,7 +30,7 @@ BlockMatrix laplacian(int n, int b, double shift, double skew = 0.0) {
 }
 
 struct Problem {
-  SerialExchange halo;
+  Halo halo;
   BlockMatrix a;
   DofMap dofs;
   SystemMatrix system;
@@ -116,7 +116,7 @@ TEST(LinearSolver, reports_a_zero_row) {
   a.end_pattern();
   const double element[4] = {2, 1, 1, 2};
   a.add(pair, element);
-  const SerialExchange halo(3);
+  const Halo halo(3);
   const DofMap dofs(halo, 1, std::vector<char>(3, 1));
   SystemMatrix system;
   system.assign(a, dofs);
