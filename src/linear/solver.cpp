@@ -16,7 +16,7 @@ OwnedVec wrap(MPI_Comm comm, std::span<const double> values, PetscInt n_global) 
 
 /// Sparse direct solvers win below these sizes (measured on 2D and 3D elasticity; fill grows much faster in
 /// 3D).
-int largest_direct(int dim) { return dim == 2 ? 50000 : 8000; }
+int largest_direct(int dim) { return dim == 2 ? 50000 : 6000; }
 
 /// Options in force while a solver is set up: a database of its own, so that nothing leaks into another
 /// solver.
