@@ -68,7 +68,8 @@ void MassSolver::take_diagonal() {
     const double d = local_[at(functions_[k])];
     const auto* mask = mask_.data() + k * at(columns_);
     const bool solved_for = std::any_of(mask, mask + columns_, [](double v) { return v != 0.0; });
-    // A free unknown without mass makes the residual NaN, which ends the iteration at its start, on all ranks.
+    // A free unknown without mass makes the residual NaN, which ends the iteration at its start, on all
+    // ranks.
     inverse_[k] = !solved_for ? 0.0 : d > 0.0 ? 1.0 / d : std::numeric_limits<double>::quiet_NaN();
   }
 }
