@@ -31,7 +31,7 @@ struct KeyRules {
   bool least_excluded = false;
   bool most_excluded = false;
   bool is_required = false;
-  bool is_per_direction = false;    ///< a list with one value for each direction of the case
+  bool is_per_direction = false;    ///< a list with one entry for each direction of the case
   bool is_existing_file = false;    ///< text that names a file, relative to the folder of the case file
   bool is_empty_allowed = false;    ///< an empty list or empty text is meaningful
   int length = 0;                   ///< number of entries of a list, 0 if any

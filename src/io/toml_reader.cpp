@@ -77,6 +77,8 @@ std::string found(const toml::node& node) {
   return "a date or time";
 }
 
+}  // namespace reader
+
 std::string range_text(const KeyRules& rules) {
   const bool low = std::isfinite(rules.least), high = std::isfinite(rules.most);
   if (low && high)
@@ -86,6 +88,8 @@ std::string range_text(const KeyRules& rules) {
   if (high) return fmt::format("{} {}", rules.most_excluded ? "<" : "<=", rules.most);
   return {};
 }
+
+namespace reader {
 
 std::string expectation(const KeyRules& rules, std::string_view noun) {
   std::string text(noun);
@@ -158,13 +162,11 @@ std::string read_text(const toml::node& node, const KeyRules& rules, std::string
   if (text.empty() && !rules.is_empty_allowed)
     context.fail(node.source(), key, "expected a text, found an empty one");
   if (rules.is_existing_file && !text.empty()) {
-    std::filesystem::path file(text);
-    if (file.is_relative()) file = context.file().folder / file;
+    const auto file = context.file().folder / text;  // an absolute name stays what it is
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
       context.fail(node.source(), key,
                    fmt::format("no file '{}' (looked for {})", text, file.lexically_normal().string()));
-    text = file.lexically_normal().string();
   }
   return text;
 }

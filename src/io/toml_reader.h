@@ -80,6 +80,9 @@ class Context {
   std::vector<std::string> where_;
 };
 
+/// ">= 0", "in (0, 0.5]"; empty if any number will do.
+std::string range_text(const KeyRules& rules);
+
 namespace reader {
 
 /// What was found, for messages: `string "x"`, `integer 3`, `a table`.
@@ -218,12 +221,11 @@ std::vector<T> read_vector(const toml::node& node, const KeyRules& rules, std::s
     for (const auto& entry : read_tables(node, rules, key, context))
       list.push_back(read_object<T>(*entry.as_table(), context));
   } else {
-    // Lists of lists: the length belongs to the inner lists.
-    KeyRules outer = rules, inner = rules;
-    if constexpr (is_vector<T>) outer.is_per_direction = false, outer.length = 0;
-    inner.is_empty_allowed = false;
+    KeyRules inner = rules;  // of lists of lists: the length is the outer list's
+    inner.is_per_direction = inner.is_empty_allowed = false;
+    inner.length = 0;
     int index = 0;
-    for (const auto& entry : read_list(node, outer, noun<T>(), key, context))
+    for (const auto& entry : read_list(node, rules, noun<T>(), key, context))
       list.push_back(read_value<T>(entry, inner, fmt::format("{}[{}]", key, index++), context));
   }
   return list;

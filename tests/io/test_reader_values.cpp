@@ -121,7 +121,7 @@ length = 2
 title = "t"
 cells = [1, 2, 3]
 fields = ["a", "b"]
-outline = [[0, 0.5, 1], [1, 2, 3]]
+outline = [[0, 0.5, 1], [1, 2, 3], [4]]
 mass = "consistent"
 gravity = [[0, 0], [1.5, 10.0]]
 step = 0.25
@@ -206,10 +206,9 @@ INSTANTIATE_TEST_SUITE_P(
         Complaint{"fields = ['a', 1]",
                   "case.toml:1:16: fields[1]: expected a text in quotes, found integer 1"},
         Complaint{"fields = 'a'", "case.toml:1:10: fields: expected a list of texts, found string \"a\""},
-        Complaint{"dimension = 2\noutline = [[0.0, 1.0], [0.0]]",
-                  "case.toml:2:24: outline[1]: expected a list of 2 numbers >= -1 m (one for each "
-                  "direction), found a list "
-                  "of 1"},
+        Complaint{"dimension = 2\noutline = [[0.0], [1.0], [2.0]]",
+                  "case.toml:2:11: outline: expected a list of 2 lists (one for each direction), found a "
+                  "list of 3"},
         Complaint{"outline = [[0.0, -2.0]]",
                   "case.toml:1:18: outline[0][1]: expected a number >= -1 m, found number -2.0"},
         Complaint{"outline = [1.0]",
