@@ -49,7 +49,9 @@ std::string folded(std::string_view text, std::size_t indent, std::size_t width)
   return result;
 }
 
-std::string header(const Kind& kind) { return kind.is_list_of_tables ? "[[" + kind.name + "]]" : "[" + kind.name + "]"; }
+std::string header(const Kind& kind) {
+  return kind.is_list_of_tables ? "[[" + kind.name + "]]" : "[" + kind.name + "]";
+}
 
 /// Rows of cells with aligned columns; the last column is folded.
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
@@ -71,8 +73,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string type_text(const Kind& kind, const TypeText& type) {
-  std::string text = fmt::format("{} {}: {}\n", header(kind), kind.is_variant ? "type = " + toml_text(type.name) : "",
-                                 type.summary);
+  std::string text = fmt::format("{} {}: {}\n", header(kind),
+                                 kind.is_variant ? "type = " + toml_text(type.name) : "", type.summary);
   if (!kind.is_variant) text = fmt::format("{}: {}\n", header(kind), type.summary);
   if (!type.source.empty()) text += "Source: " + type.source + "\n";
   if (type.keys.empty()) return text + "No keys.\n";
@@ -103,7 +105,8 @@ void collect(const TypeText& type, std::vector<Kind>& kinds) {
     const std::string name(key.rules.name);
     auto same = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == name; });
     if (same == kinds.end()) {
-      kinds.push_back({name, std::string(key.rules.meaning), key.is_variant, key.is_list_of_tables, key.tables});
+      kinds.push_back(
+          {name, std::string(key.rules.meaning), key.is_variant, key.is_list_of_tables, key.tables});
       for (const auto& table : key.tables) collect(table, kinds);
       continue;
     }
@@ -158,13 +161,14 @@ std::string describe_text(const TypeText& root, const std::vector<std::string>& 
 
 std::string describe_markdown(const TypeText& root) {
   const auto bar = [](std::string text) {
-    for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, "\\");
+    for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2))
+      text.insert(i, "\\");
     return text;
   };
   std::string text = "# The case file\n\nWritten by `wisp describe --markdown`; do not edit.\n";
   for (const auto& kind : kinds_of(root)) {
-    text += fmt::format("\n## {}\n\n{}.\n", &kind.types.front() != nullptr && kind.name == root.name ? "The whole file" : "`" + header(kind) + "`",
-                        kind.meaning);
+    text += fmt::format("\n## {}\n\n{}.\n",
+                        kind.name == root.name ? "The whole file" : "`" + header(kind) + "`", kind.meaning);
     for (const auto& type : kind.types) {
       if (kind.is_variant) text += fmt::format("\n### `type = \"{}\"`\n\n{}.\n", type.name, type.summary);
       if (!type.source.empty()) text += "\nSource: " + type.source + ".\n";
@@ -176,7 +180,8 @@ std::string describe_markdown(const TypeText& root) {
       for (const auto& key : type.keys) {
         const std::string value = default_phrase(key);
         text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.rules.name, bar(value_phrase(key)),
-                            unit_text(key.rules), value == "required" || value == "-" ? value : "`" + bar(value) + "`",
+                            unit_text(key.rules),
+                            value == "required" || value == "-" ? value : "`" + bar(value) + "`",
                             range_text(key.rules), bar(std::string(key.rules.meaning)));
       }
     }

@@ -1,4 +1,5 @@
-// What the description tables say, as text: for the terminal, for the reference pages, and as commented cases.
+// What the description tables say, as text: for the terminal, for the reference pages, and as commented
+// cases.
 #pragma once
 #include <optional>
 #include <string>
@@ -18,12 +19,12 @@ struct TypeText;
 /// One key of a described type, without its C++ type.
 struct KeyText {
   KeyRules rules;
-  std::string value;                   ///< "number", "list of integers", "one of lumped, consistent", "table"
-  std::string default_toml;            ///< empty if there is none
-  bool is_optional = false;            ///< std::optional: absent unless given
-  bool is_list_of_tables = false;      ///< [[key]]
-  bool is_variant = false;             ///< the key `type` selects one of `tables`
-  std::vector<TypeText> tables;        ///< the types of a nested table, empty for plain values
+  std::string value;               ///< "number", "list of integers", "one of lumped, consistent", "table"
+  std::string default_toml;        ///< empty if there is none
+  bool is_optional = false;        ///< std::optional: absent unless given
+  bool is_list_of_tables = false;  ///< [[key]]
+  bool is_variant = false;         ///< the key `type` selects one of `tables`
+  std::vector<TypeText> tables;    ///< the types of a nested table, empty for plain values
 };
 
 /// A described type.
@@ -139,7 +140,8 @@ TypeText describe_type() {
 /// All kinds of tables in a tree of types, each once, in the order of the tree.
 std::vector<Kind> kinds_of(const TypeText& root);
 
-/// `wisp describe`, `describe KIND` and `describe KIND NAME` (or `describe NAME`). InputError for unknown names.
+/// `wisp describe`, `describe KIND` and `describe KIND NAME` (or `describe NAME`). InputError for unknown
+/// names.
 std::string describe_text(const TypeText& root, const std::vector<std::string>& words);
 
 /// The reference of the whole file as Markdown.
@@ -148,8 +150,8 @@ std::string describe_markdown(const TypeText& root);
 /// A value for a required key without default, by its path ("grid.lower"); empty if unknown.
 using Sample = std::string (*)(const std::string& path);
 
-/// A commented case: every key with its unit, range and meaning; what need not be given is commented out. Of variants
-/// the alternative whose name is in `chosen`, else the first.
+/// A commented case: every key with its unit, range and meaning; what need not be given is commented out. Of
+/// variants the alternative whose name is in `chosen`, else the first.
 std::string template_text(const TypeText& root, const std::vector<std::string>& chosen, Sample sample);
 
 }  // namespace wisp

@@ -37,7 +37,8 @@ class TemplateWriter {
       limits += (limits.empty() ? "" : " ") + std::string(key.rules.unit);
     if (key.rules.is_required) limits = "required" + (limits.empty() ? "" : ", " + limits);
     if (!limits.empty()) remark += " [" + limits + "]";
-    line(name + " = " + value + "  # " + remark + (key.value.find(", ") != std::string::npos ? ": " + key.value : ""),
+    line(name + " = " + value + "  # " + remark +
+             (key.value.find(", ") != std::string::npos ? ": " + key.value : ""),
          commented || absent);
   }
 
@@ -54,13 +55,16 @@ class TemplateWriter {
     if (key.is_variant) {
       std::string names;
       for (const auto& t : key.tables) names += (names.empty() ? "" : ", ") + t.name;
-      line("type = " + toml_text(type.name) + "  # " + type.summary + (key.tables.size() > 1 ? "; one of: " + names : ""),
+      line("type = " + toml_text(type.name) + "  # " + type.summary +
+               (key.tables.size() > 1 ? "; one of: " + names : ""),
            commented);
     }
     keys(type, full, commented);
   }
 
-  bool picked(const std::string& name) const { return std::find(chosen_.begin(), chosen_.end(), name) != chosen_.end(); }
+  bool picked(const std::string& name) const {
+    return std::find(chosen_.begin(), chosen_.end(), name) != chosen_.end();
+  }
 
   const TypeText& choose(const KeyText& key) const {
     for (const auto& type : key.tables)
