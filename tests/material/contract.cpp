@@ -1,7 +1,5 @@
 // What every law of the list promises, in two and three dimensions. A new law is tested here by being in the
 // list.
-#include <cstring>
-
 #include "material/samples.h"
 
 namespace wisp::test {
@@ -88,9 +86,18 @@ TYPED_TEST(Contract, TangentIsTheDerivativeOfTheForceBesideEqualEigenvalues) {
 
 TYPED_TEST(Contract, StressFollowsASuperposedRotation) {
   using C = Contract<TypeParam>;
-  if (!C::Law::finite_strain) GTEST_SKIP() << "small strains do not see rotations";
   const auto law = sample_law<typename C::Law>();
   Random random(9);
+  if constexpr (!C::Law::finite_strain) {  // these only promise not to see a small rotation
+    for (int i = 0; i < 50; ++i) {
+      const auto k = random.motion<C::dim>(0.01);
+      const Mat<C::dim> spin = random.matrix<C::dim>(0.01);
+      const auto plain = after<C::dim>(law, k, {});
+      const auto turned = after<C::dim>(law, {k.dF + spin - spin.transpose(), k.dt}, {});
+      EXPECT_LT((turned.stress - plain.stress).norm(), 1e-14 * law.p_wave_modulus());
+    }
+    return;
+  }
   for (int i = 0; i < 50; ++i) {
     auto plain = law.template initial<C::dim>(Sym<C::dim>::Zero());
     auto turned = plain;
@@ -153,9 +160,18 @@ TYPED_TEST(Contract, UpdatingInPlaceGivesTheSameBits) {
   for (int i = 0; i < 50; ++i) {
     auto old = C::walked(law, random, 0.1, 1);
     const auto k = random.motion<C::dim>(0.1);
-    const auto apart = after<C::dim>(law, k, old);
+    auto apart = after<C::dim>(law, k, old);
     law.template stress<C::dim>(k, old, old);
-    EXPECT_EQ(std::memcmp(&apart, &old, sizeof(old)), 0);
+    for (int again = 0; again < 2;
+         ++again) {  // the second time shows whatever the first left elsewhere in the state
+      EXPECT_EQ(apart.stress, old.stress);
+      EXPECT_EQ(law.template plastic_strain<C::dim>(apart), law.template plastic_strain<C::dim>(old));
+      EXPECT_EQ(law.template dissipation<C::dim>(apart), law.template dissipation<C::dim>(old));
+      EXPECT_EQ(law.template strain_energy<C::dim>(apart), law.template strain_energy<C::dim>(old));
+      const auto next = random.motion<C::dim>(0.1);
+      apart = after<C::dim>(law, next, apart);
+      law.template stress<C::dim>(next, old, old);
+    }
   }
 }
 

@@ -195,21 +195,33 @@ TEST(VonMises, PureShearYieldsAtItsShearStrength) {
   EXPECT_NEAR(state.stress[2], 0.0, 1e-11);
 }
 
-TEST(VonMises, LargeSimpleShearSettlesAtTheShearStrengthWithoutOscillating) {
-  // The exponential map is free of the oscillations of hypoelastic laws; perfectly plastic flow tends to
-  // tau_xy = k.
-  const Plastic plastic(0.0);
-  auto state = rest<VonMises, 2>(plastic.law);
-  Kinematics<2> k;
-  k.dF(0, 1) = 1e-3;
-  double shear = 0.0;
-  for (int n = 0; n < 4000; ++n) {
-    plastic.law.stress<2>(k, state, state);
-    EXPECT_GE(state.stress[3], shear - 1e-9);
-    shear = state.stress[3];
-  }
-  EXPECT_NEAR(shear, 20.0 / std::sqrt(2.0), 2e-3 * 20.0);
-  EXPECT_LE(shear, 20.0 / std::sqrt(2.0));
+TEST(VonMises, SteadySimpleShearIsItsClosedForm) {
+  // Perfectly plastic simple shear at a constant rate settles where l b + b l^T = 2 (multiplier) n b with b
+  // constant: with b = exp(2 e N) in the plane, e = rho_y / (2 sqrt(2) mu), N at the angle 2 theta, the (2,2)
+  // component gives cos(2 theta) = tanh(2 e). So tau_xy = k / cosh(2 e) and tau_xx = -tau_yy = k tanh(2 e), k
+  // = rho_y / sqrt(2).
+  Plastic plastic(0.0);
+  plastic.law.yield_stress = 300.0;
+  const double k = 300.0 / std::sqrt(2.0);
+  const double twice = k / plastic.mu;
+  const auto settled = [&](double step) {
+    auto state = rest<VonMises, 2>(plastic.law);
+    Kinematics<2> kinematics;
+    kinematics.dF(0, 1) = step;
+    for (int n = 0; n < static_cast<int>(20.0 / step + 0.5); ++n)
+      plastic.law.stress<2>(kinematics, state, state);
+    EXPECT_NEAR(state.stress[0], -state.stress[1], 1e-9);
+    return state.stress;
+  };
+  const Sym<2> coarse = settled(4e-3);
+  const Sym<2> fine = settled(2e-3);
+  const double shear = k / std::cosh(twice);
+  const double normal = k * std::tanh(twice);
+  EXPECT_NEAR((coarse[3] - shear) / (fine[3] - shear), 2.0,
+              0.01);  // first order in the step, as backward Euler is
+  EXPECT_NEAR((coarse[0] - normal) / (fine[0] - normal), 2.0, 0.01);
+  EXPECT_NEAR(2.0 * fine[3] - coarse[3], shear, 1e-6 * k);
+  EXPECT_NEAR(2.0 * fine[0] - coarse[0], normal, 1e-6 * k);
 }
 
 TEST(VonMises, UniaxialTensionFollowsTheUniaxialCurve) {
