@@ -33,6 +33,10 @@ add_library(wisp_boost INTERFACE)
 
 add_library(wisp_options INTERFACE)
 target_compile_options(wisp_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # g++ 12 sees uninitialised values in its own AVX-512 header (GCC bug 105593).
+  target_compile_options(wisp_options INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
+endif()
 target_compile_definitions(wisp_options INTERFACE OMPI_SKIP_MPICXX PETSC_SKIP_CXX_COMPLEX_FIX)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   # No -ffast-math: results must not depend on the compiler's mood. These two only drop errno and signalling NaNs.
