@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "grid/structured_options.h"
-#include "parallel/box.h"
+#include "parallel/index_box.h"
 #include "tensor/tensor.h"
 
 namespace wisp {

@@ -47,7 +47,7 @@ void fill_cell(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule, c
   const int m = static_cast<int>(rule.r.size());
   const Vec<dim> side = upper - lower;
   const Vec<dim> middle = 0.5 * (lower + upper);
-  for_each_in(Box<dim>{MultiIndex<dim>::Zero(), MultiIndex<dim>::Constant(m)},
+  for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), MultiIndex<dim>::Constant(m)},
               [&](const MultiIndex<dim>& index) {
                 Vec<dim> x, l;
                 double volume = 1.0;
@@ -88,7 +88,7 @@ Layout<dim> lay_out(const BodyOptions& options, const StructuredGrid<dim>& grid,
           for (int d = 0; d < dim; ++d) n[d] = s.divisions[static_cast<std::size_t>(d)];
           const Vec<dim> step = (box.upper - box.lower).cwiseQuotient(n.template cast<double>());
           const Rule rule = even_rule(1);
-          for_each_in(Box<dim>{MultiIndex<dim>::Zero(), n}, [&](const MultiIndex<dim>& i) {
+          for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), n}, [&](const MultiIndex<dim>& i) {
             const Vec<dim> lower = box.lower + step.cwiseProduct(i.template cast<double>());
             fill_cell<dim>(lower, lower + step, rule, shape, out);
           });
@@ -96,7 +96,7 @@ Layout<dim> lay_out(const BodyOptions& options, const StructuredGrid<dim>& grid,
         }
         const Rule rule =
             s.method == SamplingMethod::gauss ? gauss_rule(s.points_per_cell) : even_rule(s.points_per_cell);
-        Box<dim> cells;
+        IndexBox<dim> cells;
         for (int d = 0; d < dim; ++d) {
           cells.lower[d] = std::max(0, grid.locate(d, box.lower[d]));
           cells.upper[d] = std::min(grid.cells(d), grid.locate(d, box.upper[d]) + 1);
