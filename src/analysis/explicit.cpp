@@ -75,7 +75,7 @@ void Explicit<dim>::assemble_mass() {
   const ActiveCells cells = active_cells(space, model_.bodies);
   std::vector<GhostFacet> facets;
   const auto& ghost = model_.options.stabilisation;
-  if (ghost) facets = ghost_facets(space, cells, model_.bodies, model_.conditions);
+  if (ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.conditions));
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);
@@ -279,7 +279,8 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   if (scheme == StressUpdate::usf) {
     PointUpdate strain = update;
-    strain.strain = true, strain.strain_velocity = velocity_;
+    // Mass and forces of a step share their functions, so domains wait for the end of the step.
+    strain.strain = true, strain.strain_velocity = velocity_, strain.domains = false;
     {
       const auto timer = model_.timers.start(4);
       points(strain);
@@ -317,6 +318,8 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   {
     const auto timer = model_.timers.start(4);
     points(update);
+    if (scheme == StressUpdate::usf)
+      for (auto& body : model_.bodies) follow_stretch(body);
   }
   model_.time += dt;
   ++model_.step;
