@@ -5,6 +5,7 @@
 #include "analysis/record.h"
 #include "linear/mass_solver.h"
 #include "stabilise/ghost.h"
+#include "transfer/explicit_transfer.h"
 
 namespace wisp {
 
