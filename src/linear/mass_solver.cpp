@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wisp {
 namespace {
@@ -65,7 +66,11 @@ void MassSolver::take_diagonal() {
   inverse_.resize(functions_.size());
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const double d = local_[at(functions_[k])];
-    inverse_[k] = d > 0.0 ? 1.0 / d : 0.0;
+    const auto* mask = mask_.data() + k * at(columns_);
+    const bool solved_for = std::any_of(mask, mask + columns_, [](double v) { return v != 0.0; });
+    // A free unknown without mass makes the residual NaN, which ends the iteration at its start, on all
+    // ranks.
+    inverse_[k] = !solved_for ? 0.0 : d > 0.0 ? 1.0 / d : std::numeric_limits<double>::quiet_NaN();
   }
 }
 
@@ -108,21 +113,17 @@ void MassSolver::apply(const std::vector<double>& p, std::vector<double>& ap) {
 }
 
 template <int m>
-SolveReport MassSolver::iterate(std::span<const double> b, std::span<double> x) {
-  const std::size_t n = functions_.size();
-  SolveReport report;
+double MassSolver::start(std::span<const double> b, std::span<const double> x, double* rho) {
   to_compact(b, b_);
   to_compact(x, x_);
-  for (std::size_t k = 0; k < n; ++k)  // an inactive function contributes to nothing
-    if (!active_[at(functions_[k])])
-      for (int c = 0; c < m; ++c) x_[k * m + at(c)] = 0.0;
-  r_.resize(n * m);
-  p_.assign(n * m, 0.0);
-  ap_.resize(n * m);
+  for (std::size_t k = 0; k < functions_.size(); ++k)  // an inactive function contributes to nothing
+    if (!active_[at(functions_[k])]) std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(k * m), m, 0.0);
+  r_.resize(x_.size());
+  ap_.resize(x_.size());
+  p_.assign(x_.size(), 0.0);
   apply<m>(x_, r_);
-  // Sums of b·D⁻¹b and r·D⁻¹r by column; D⁻¹r is never stored.
-  double sums[2 * m] = {};
-  for (std::size_t k = 0; k < n; ++k)
+  double sums[2 * m] = {};  // b . inv(D) b and r . inv(D) r of each column
+  for (std::size_t k = 0; k < functions_.size(); ++k)
     for (int c = 0; c < m; ++c) {
       const std::size_t i = k * m + at(c);
       r_[i] = mask_[i] * (b_[i] - r_[i]);
@@ -130,58 +131,74 @@ SolveReport MassSolver::iterate(std::span<const double> b, std::span<double> x) 
       sums[m + c] += inverse_[k] * r_[i] * r_[i];
     }
   sum_over_ranks(sums, 2 * m);
-  // One measure for all columns: a motion along x must not iterate on the rounding of its y.
-  const double size = *std::max_element(sums, sums + m);
-  double rho[m], beta[m] = {}, previous[m];
   std::copy(sums + m, sums + 2 * m, rho);
+  // One measure for all columns: a motion along x must not iterate on the rounding of its y. Without a load,
+  // the load that fixed values make.
+  const double load = *std::max_element(sums, sums + m);
+  return load > 0.0 ? load : *std::max_element(rho, rho + m);
+}
+
+template <int m>
+void MassSolver::turn(const double* beta, double* curvature) {
+  for (std::size_t k = 0; k < functions_.size(); ++k)
+    for (int c = 0; c < m; ++c) {
+      const std::size_t i = k * m + at(c);
+      p_[i] = inverse_[k] * r_[i] + beta[c] * p_[i];
+    }
+  if (!halo_.serial()) {
+    local_.assign(at(mass_->n_local()) * m, 0.0);
+    from_compact(p_, local_);
+    halo_.update(local_.data(), m);
+    to_compact(local_, p_);
+  }
+  apply<m>(p_, ap_);
+  std::fill(curvature, curvature + m, 0.0);
+  for (std::size_t i = 0; i < p_.size(); i += m)
+    for (int c = 0; c < m; ++c) curvature[c] += mask_[i + at(c)] * p_[i + at(c)] * ap_[i + at(c)];
+  sum_over_ranks(curvature, m);
+}
+
+template <int m>
+void MassSolver::advance(const double* alpha, double* rho) {
+  std::fill(rho, rho + m, 0.0);
+  for (std::size_t k = 0; k < functions_.size(); ++k)
+    for (int c = 0; c < m; ++c) {
+      const std::size_t i = k * m + at(c);
+      x_[i] += alpha[c] * p_[i];
+      r_[i] -= alpha[c] * mask_[i] * ap_[i];
+      rho[c] += inverse_[k] * r_[i] * r_[i];
+    }
+  sum_over_ranks(rho, m);
+}
+
+template <int m>
+SolveReport MassSolver::iterate(std::span<const double> b, std::span<double> x) {
+  SolveReport report;
+  double rho[m], before[m], curvature[m], alpha[m], beta[m] = {};
+  const double size = start<m>(b, x, rho);
   const double goal = options_.tolerance * options_.tolerance * size;
-  // With fixed values the load may be all in them; with neither load nor values there is nothing to solve.
-  const double start = *std::max_element(rho, rho + m);
-  const double target = size > 0.0 ? goal : options_.tolerance * options_.tolerance * start;
   for (;; ++report.iterations) {
     const double worst = *std::max_element(rho, rho + m);
-    report.residual = std::sqrt(worst / std::max(size > 0.0 ? size : start, 1e-300));
-    if (!std::isfinite(worst)) {
-      report.cause = "the mass matrix or its right-hand side has entries that are not finite";
+    report.residual = size > 0.0 ? std::sqrt(worst / size) : 0.0;
+    if (!std::isfinite(worst) || !std::isfinite(size)) {
+      report.cause = "an active function has no mass, or the mass or its right-hand side is not finite";
       break;
     }
-    if (worst <= target) break;
+    if (worst <= goal) break;
     if (report.iterations == options_.max_iterations) {
       report.cause = "the conjugate gradients of the mass matrix did not converge within their limit";
       break;
     }
-    for (std::size_t k = 0; k < n; ++k)
-      for (int c = 0; c < m; ++c)
-        p_[k * m + at(c)] = inverse_[k] * r_[k * m + at(c)] + beta[c] * p_[k * m + at(c)];
-    if (!halo_.serial()) {
-      local_.assign(at(mass_->n_local()) * m, 0.0);
-      from_compact(p_, local_);
-      halo_.update(local_.data(), m);
-      to_compact(local_, p_);
-    }
-    apply<m>(p_, ap_);
-    double curvature[m] = {};
-    for (std::size_t i = 0; i < n * m; i += m)
-      for (int c = 0; c < m; ++c) curvature[c] += mask_[i + at(c)] * p_[i + at(c)] * ap_[i + at(c)];
-    sum_over_ranks(curvature, m);
-    double alpha[m];
+    turn<m>(beta, curvature);
     for (int c = 0; c < m; ++c) {
-      previous[c] = rho[c];
+      before[c] = rho[c];
+      if (rho[c] > goal && !(curvature[c] > 0.0)) report.cause = "the mass matrix is not positive definite";
       // A finished column rests: its numbers would only be rounding.
-      alpha[c] = rho[c] > 1e-6 * target && curvature[c] > 0.0 ? rho[c] / curvature[c] : 0.0;
-      if (rho[c] > target && !(curvature[c] > 0.0)) report.cause = "the mass matrix is not positive definite";
+      alpha[c] = rho[c] > 1e-4 * goal && curvature[c] > 0.0 ? rho[c] / curvature[c] : 0.0;
     }
     if (!report.cause.empty()) break;
-    std::fill(rho, rho + m, 0.0);
-    for (std::size_t k = 0; k < n; ++k)
-      for (int c = 0; c < m; ++c) {
-        const std::size_t i = k * m + at(c);
-        x_[i] += alpha[c] * p_[i];
-        r_[i] -= alpha[c] * mask_[i] * ap_[i];
-        rho[c] += inverse_[k] * r_[i] * r_[i];
-      }
-    sum_over_ranks(rho, m);
-    for (int c = 0; c < m; ++c) beta[c] = previous[c] > 0.0 ? rho[c] / previous[c] : 0.0;
+    advance<m>(alpha, rho);
+    for (int c = 0; c < m; ++c) beta[c] = before[c] > 0.0 ? rho[c] / before[c] : 0.0;
   }
   report.solved = report.cause.empty();
   std::fill(x.begin(), x.end(), 0.0);
@@ -190,47 +207,48 @@ SolveReport MassSolver::iterate(std::span<const double> b, std::span<double> x) 
   return report;
 }
 
+MassSolver::Factor& MassSolver::factor_for(std::size_t column) {
+  const std::size_t m = at(columns_);
+  std::vector<char> free(active_.size()), fixed(active_.size());
+  for (std::size_t f = 0; f < free.size(); ++f) {
+    fixed[f] = fixed_[f * m + column];
+    free[f] = active_[f] && !fixed[f];
+  }
+  for (auto& factor : factors_) {
+    int same = factor->free == free;
+    if (!halo_.serial()) MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, halo_.comm());
+    if (same) return *factor;
+  }
+  SolverOptions options;
+  options.solver = SolverKind::direct;
+  MatrixTraits traits;
+  traits.symmetric = true;
+  auto made = std::make_unique<Factor>();
+  made->free = std::move(free);
+  made->dofs = DofMap(halo_, 1, active_, fixed);
+  made->solver = LinearSolver(options, traits);
+  if (factors_.size() >= m) factors_.erase(factors_.begin());  // of an earlier set of active functions
+  factors_.push_back(std::move(made));
+  return *factors_.back();
+}
+
 SolveReport MassSolver::factorise_and_solve(std::span<const double> b, std::span<double> x) {
-  const auto m = at(columns_);
-  const auto n = at(mass_->n_local());
-  const std::vector<double> given(x.begin(), x.end());
-  factor_of_column_.assign(m, nullptr);
-  std::vector<double> rhs(n), solution(n), product(n);
+  const std::size_t m = at(columns_), n = active_.size();
+  std::vector<double> rhs(n), values(n), product(n);
   SolveReport worst;
   for (std::size_t c = 0; c < m; ++c) {
-    std::vector<char> fixed(n);
-    for (std::size_t f = 0; f < n; ++f) fixed[f] = fixed_[f * m + c];
-    std::vector<char> free(n);
-    for (std::size_t f = 0; f < n; ++f) free[f] = active_[f] && !fixed[f];
+    Factor& factor = factor_for(c);
     // The right-hand side without what the fixed values already take.
-    for (std::size_t f = 0; f < n; ++f) solution[f] = active_[f] && fixed[f] ? given[f * m + c] : 0.0;
-    mass_->multiply(solution, product);
+    for (std::size_t f = 0; f < n; ++f) values[f] = active_[f] && !factor.free[f] ? x[f * m + c] : 0.0;
+    mass_->multiply(values, product);
     halo_.add(product.data(), 1);
     for (std::size_t f = 0; f < n; ++f) rhs[f] = b[f * m + c] - product[f];
-    auto match =
-        std::find_if(factors_.begin(), factors_.end(), [&](const auto& g) { return g->free == free; });
-    int found = match != factors_.end();
-    if (!halo_.serial()) MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MIN, halo_.comm());
-    if (!found) {
-      if (factors_.size() >= m) factors_.erase(factors_.begin());
-      SolverOptions direct;
-      direct.solver = SolverKind::direct;
-      MatrixTraits traits;
-      traits.symmetric = true;
-      factors_.push_back(std::make_unique<Factor>());
-      Factor& made = *factors_.back();
-      made.free = free;
-      made.dofs = DofMap(halo_, 1, active_, fixed);
-      made.solver = LinearSolver(direct, traits);
-      match = factors_.end() - 1;
-    }
-    Factor& factor = **match;
     if (!factor.current) factor.matrix.assign(*mass_, factor.dofs);
     std::fill(product.begin(), product.end(), 0.0);
     const SolveReport report =
         factor.solver.solve(factor.matrix, factor.dofs, halo_, rhs, product, factor.current);
     factor.current = report.solved;
-    for (std::size_t f = 0; f < n; ++f) x[f * m + c] = free[f] ? product[f] : solution[f];
+    for (std::size_t f = 0; f < n; ++f) x[f * m + c] = factor.free[f] ? product[f] : values[f];
     worst.residual = std::max(worst.residual, report.residual);
     worst.iterations = std::max(worst.iterations, report.iterations);
     if (!report.solved && worst.solved) {

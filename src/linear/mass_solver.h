@@ -56,6 +56,21 @@ class MassSolver {
   SolveReport solve(std::span<const double> b, std::span<double> x);
 
  private:
+  // The direct path keeps one system per column; columns with the same free unknowns share theirs.
+  struct Factor {
+    std::vector<char> free;
+    DofMap dofs;
+    SystemMatrix matrix;
+    LinearSolver solver;
+    bool current = false;
+  };
+  // Conjugate gradients, m columns at once, each with its own scalars.
+  template <int m>
+  double start(std::span<const double> b, std::span<const double> x, double* rho);
+  template <int m>
+  void turn(const double* beta, double* curvature);
+  template <int m>
+  void advance(const double* alpha, double* rho);
   template <int m>
   SolveReport iterate(std::span<const double> b, std::span<double> x);
   template <int m>
@@ -66,6 +81,7 @@ class MassSolver {
   void to_compact(std::span<const double> local, std::vector<double>& compact) const;
   void from_compact(const std::vector<double>& compact, std::span<double> local) const;
   void sum_over_ranks(double* values, int count) const;
+  Factor& factor_for(std::size_t column);
   SolveReport factorise_and_solve(std::span<const double> b, std::span<double> x);
 
   MassSolverOptions options_;
@@ -83,16 +99,7 @@ class MassSolver {
   std::vector<double> mask_;     // compact x columns: 1 at free unknowns that this rank owns
   std::vector<double> inverse_;  // compact: inverse of the diagonal
   std::vector<double> guess_, b_, x_, r_, p_, ap_, local_;
-  // The direct path keeps one system per column; columns with the same free unknowns share theirs.
-  struct Factor {
-    std::vector<char> free;
-    DofMap dofs;
-    SystemMatrix matrix;
-    LinearSolver solver;
-    bool current = false;
-  };
   std::vector<std::unique_ptr<Factor>> factors_;
-  std::vector<Factor*> factor_of_column_;
 };
 
 }  // namespace wisp

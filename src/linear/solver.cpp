@@ -1,5 +1,6 @@
 #include "linear/solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,17 +17,17 @@ OwnedVec wrap(MPI_Comm comm, std::span<const double> values, PetscInt n_global) 
 
 /// Sparse direct solvers win below these sizes (measured on 2D and 3D elasticity; fill grows much faster in
 /// 3D).
-int largest_direct(int dim) { return dim == 2 ? 50000 : 8000; }
+int largest_direct(int dim) { return dim == 2 ? 50000 : 6000; }
 
-/// Options in force while a solver is set up: a database of its own, so that nothing leaks into another
-/// solver.
+/// The case's own options, in force while this lives: PETSc reads some when it makes a solver, some when it
+/// factorises. They are a database of their own, so that nothing leaks into another solver.
 class OptionScope {
  public:
-  explicit OptionScope(const std::string& text) : text_(text) {
-    if (text_.empty()) return;
+  explicit OptionScope(const std::string& text) {
+    if (text.empty()) return;
     petsc(PetscOptionsCreate(&options_));
-    if (PetscOptionsInsertString(options_, text_.c_str()) != 0)
-      input_error("petsc_options cannot be read: \"{}\"", text_);
+    if (PetscOptionsInsertString(options_, text.c_str()) != 0)
+      input_error("petsc_options cannot be read: \"{}\"", text);
     petsc(PetscOptionsPush(options_));
   }
   ~OptionScope() {
@@ -38,7 +39,6 @@ class OptionScope {
   OptionScope& operator=(const OptionScope&) = delete;
 
  private:
-  std::string text_;
   PetscOptions options_ = nullptr;
 };
 
@@ -105,28 +105,42 @@ void LinearSolver::choose_iterative(KSP ksp, ::Mat mat) {
   }
 }
 
+FixedUnknowns LinearSolver::numbering(int n_unknowns) const {
+  return goes_direct(n_unknowns) ? FixedUnknowns::removed : FixedUnknowns::unit_rows;
+}
+
+bool LinearSolver::goes_direct(int n_unknowns) const {
+  if (options_.solver != SolverKind::automatic) return options_.solver == SolverKind::direct;
+  return iteration_failed_ || n_unknowns <= largest_direct(traits_.dim);
+}
+
 void LinearSolver::set_up(const SystemMatrix& matrix) {
   ::Mat mat = matrix.mat();
   PetscInt n = 0;
   petsc(MatGetSize(mat, &n, nullptr));
-  MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(mat));
-  direct_ = options_.solver == SolverKind::direct ||
-            (options_.solver == SolverKind::automatic && n <= largest_direct(traits_.dim));
-  const OptionScope scope(options_.petsc_options);
-  petsc(KSPCreate(comm, ksp_.renew()));
+  direct_ = goes_direct(n);
+  petsc(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(mat)), ksp_.renew()));
   KSP ksp = ksp_.get();
-  petsc(KSPSetOptionsPrefix(ksp, "wisp_"));
+  if (options_.petsc_options.empty()) petsc(KSPSetOptionsPrefix(ksp, "wisp_"));
+  petsc(KSPSetOperators(ksp, mat, mat));
   petsc(KSPSetTolerances(ksp, options_.tolerance, 0.0, 1e10, options_.max_iterations));
   if (traits_.symmetric && !direct_) petsc(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
   direct_ ? choose_direct(ksp) : choose_iterative(ksp, mat);
   petsc(KSPSetInitialGuessNonzero(ksp, direct_ ? PETSC_FALSE : PETSC_TRUE));
-  // First the program's options with the prefix wisp_, then the case's own without a prefix.
   petsc(KSPSetFromOptions(ksp));
-  if (!options_.petsc_options.empty()) {
-    petsc(KSPSetOptionsPrefix(ksp, nullptr));
-    petsc(KSPSetFromOptions(ksp));
-  }
   structure_ = matrix.structure();
+  // Delayed pivots of an ill-conditioned matrix need more than the 20 % of spare room that MUMPS takes by
+  // itself.
+  PC pc = nullptr;
+  PetscBool lu = PETSC_FALSE, cholesky = PETSC_FALSE;
+  petsc(KSPGetPC(ksp, &pc));
+  petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCLU, &lu));
+  petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCCHOLESKY, &cholesky));
+  if (!lu && !cholesky) return;
+  ::Mat factor = nullptr;
+  petsc(PCFactorSetUpMatSolverType(pc));
+  petsc(PCFactorGetMatrix(pc, &factor));
+  petsc(MatMumpsSetIcntl(factor, 14, 100));
 }
 
 double LinearSolver::residual(::Mat mat, ::Vec b, ::Vec x) const {
@@ -142,6 +156,18 @@ double LinearSolver::residual(::Mat mat, ::Vec b, ::Vec x) const {
 
 SolveReport LinearSolver::solve(const SystemMatrix& matrix, std::span<const double> b, std::span<double> x,
                                 bool keep) {
+  SolveReport report = solve_once(matrix, b, x, keep);
+  const bool may_switch = options_.solver == SolverKind::automatic && options_.petsc_options.empty();
+  if (report.solved || direct_ || !may_switch) return report;
+  iteration_failed_ = true;  // from now on: the next matrix will hardly be kinder
+  reset();
+  std::fill(x.begin(), x.end(), 0.0);
+  return solve_once(matrix, b, x, false);
+}
+
+SolveReport LinearSolver::solve_once(const SystemMatrix& matrix, std::span<const double> b,
+                                     std::span<double> x, bool keep) {
+  const OptionScope scope(options_.petsc_options);
   SolveReport report;
   ::Mat mat = matrix.mat();
   PetscInt n_global = 0;

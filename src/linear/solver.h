@@ -32,7 +32,7 @@ struct SolverOptions {
   static constexpr auto keys() {
     return std::tuple{
         key("solver", &SolverOptions::solver, "",
-            "auto: a sparse direct solver for small systems, else conjugate gradients with multigrid"),
+            "auto: a sparse direct solver for small systems and where iterations fail, else multigrid"),
         key("tolerance", &SolverOptions::tolerance, "-",
             "relative residual at which an iterative solver stops")
             .positive()
@@ -84,12 +84,18 @@ class LinearSolver {
   SolveReport solve(const SystemMatrix& matrix, const DofMap& dofs, const Halo& halo,
                     std::span<const double> rhs, std::span<double> solution, bool keep = false);
 
+  /// How to number a system of `n_unknowns` for this solver: without the fixed unknowns for a direct solver,
+  /// in whole blocks for multigrid.
+  FixedUnknowns numbering(int n_unknowns) const;
   /// Whether the last set-up chose a direct solver.
   bool direct() const { return direct_; }
   /// Frees the factorisation.
   void reset();
 
  private:
+  SolveReport solve_once(const SystemMatrix& matrix, std::span<const double> b, std::span<double> x,
+                         bool keep);
+  bool goes_direct(int n_unknowns) const;
   void set_up(const SystemMatrix& matrix);
   void choose_direct(KSP ksp);
   void choose_iterative(KSP ksp, ::Mat mat);
@@ -98,6 +104,7 @@ class LinearSolver {
   SolverOptions options_;
   MatrixTraits traits_;
   bool direct_ = false;
+  bool iteration_failed_ = false;
   std::int64_t structure_ = 0;
   OwnedKsp ksp_;
   std::vector<double> b_, x_;

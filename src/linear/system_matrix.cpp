@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wisp {
 namespace {
@@ -23,6 +24,9 @@ void SystemMatrix::assign(const BlockMatrix& local, const DofMap& dofs) {
   if (local.block() != dofs.components() && local.block() != 1)
     run_error("a matrix of blocks of {} was given a numbering of {} components", local.block(),
               dofs.components());
+  if (static_cast<std::int64_t>(local.values().size()) > std::numeric_limits<int>::max())
+    run_error("a matrix has {} entries on one rank, more than 32-bit indices can count: use more ranks",
+              local.values().size());
   int changed = !mat_ || pattern_id_ != local.pattern_id() || block_ != local.block() || !(dofs_ == dofs);
   if (!dofs.serial()) MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, dofs.comm());
   if (changed) make_structure(local, dofs);

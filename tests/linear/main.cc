@@ -1,15 +1,14 @@
+// Starts MPI for all tests of this room; on several ranks only the first one prints.
 #include <gtest/gtest.h>
-#include <slepcsys.h>
+
+#include "parallel/session.h"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
-  if (SlepcInitializeNoArguments() != 0) return 2;
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank != 0)
-    delete testing::UnitTest::GetInstance()->listeners().Release(
-        testing::UnitTest::GetInstance()->listeners().default_result_printer());
-  const int failed = RUN_ALL_TESTS();
-  SlepcFinalize();
-  return failed;
+  const wisp::Session session;
+  if (wisp::Session::rank() != 0) {
+    auto& listeners = testing::UnitTest::GetInstance()->listeners();
+    delete listeners.Release(listeners.default_result_printer());
+  }
+  return RUN_ALL_TESTS();
 }

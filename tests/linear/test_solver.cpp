@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "linear/solver.h"
@@ -169,6 +170,100 @@ TEST(LinearSolver, repeats_itself_bit_by_bit) {
     LinearSolver(options).solve(p.system, p.dofs, p.halo, p.rhs, second);
     EXPECT_EQ(first, second);
   }
+}
+
+/// Square lattice of springs along edges and diagonals, fixed along its left edge: plane elasticity with
+/// rigid modes.
+struct Lattice {
+  int n;
+  BlockMatrix k{2};
+  DofMap dofs;
+  SystemMatrix system;
+  MatrixTraits traits;
+
+  explicit Lattice(int size) : n(size) {
+    const auto node = [&](int i, int j) { return j * n + i; };
+    std::vector<std::array<int, 4>> springs;  // two nodes and the direction
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        if (i + 1 < n) springs.push_back({node(i, j), node(i + 1, j), 1, 0});
+        if (j + 1 < n) springs.push_back({node(i, j), node(i, j + 1), 0, 1});
+        if (i + 1 < n && j + 1 < n) springs.push_back({node(i, j), node(i + 1, j + 1), 1, 1});
+        if (i + 1 < n && j + 1 < n) springs.push_back({node(i + 1, j), node(i, j + 1), -1, 1});
+      }
+    k.begin_pattern(n * n);
+    for (const auto& s : springs) k.add_element(std::span(s).first(2));
+    k.end_pattern();
+    for (const auto& s : springs) {
+      const double l2 = s[2] * s[2] + s[3] * s[3];
+      const double u[4] = {-s[2] / l2, -s[3] / l2, s[2] / l2, s[3] / l2};
+      double element[16];
+      for (int a = 0; a < 16; ++a) element[a] = u[a / 4] * u[a % 4];
+      k.add(std::span(s).first(2), element);
+    }
+    std::vector<char> fixed(static_cast<std::size_t>(2 * n * n), 0);
+    for (int j = 0; j < n; ++j)
+      fixed[static_cast<std::size_t>(2 * node(0, j))] = fixed[static_cast<std::size_t>(2 * node(0, j) + 1)] =
+          1;
+    dofs = DofMap(Halo(n * n), 2, std::vector<char>(static_cast<std::size_t>(n * n), 1), fixed,
+                  FixedUnknowns::unit_rows);
+    system.assign(k, dofs);
+    traits.symmetric = true;
+  }
+  SolveReport solve(bool with_coordinates, std::vector<double>& x) {
+    traits.coordinates.clear();
+    for (int f = 0; with_coordinates && f < n * n; ++f) {
+      traits.coordinates.push_back(f % n);
+      traits.coordinates.push_back(static_cast<double>(f / n));
+    }
+    SolverOptions options;
+    options.solver = SolverKind::iterative;
+    LinearSolver solver(options, traits);
+    std::vector<double> load(static_cast<std::size_t>(2 * n * n), 0.0);
+    load.back() = 1.0;
+    x.assign(load.size(), 0.0);
+    return solver.solve(system, dofs, Halo(n * n), load, x);
+  }
+};
+
+TEST(LinearSolver, multigrid_gains_from_rigid_modes) {
+  std::vector<double> x, y;
+  Lattice plain(40), informed(40);
+  const auto without = plain.solve(false, x);
+  const auto with = informed.solve(true, y);
+  ASSERT_TRUE(with.solved) << with.cause;
+  ASSERT_TRUE(without.solved) << without.cause;
+  EXPECT_LT(with.iterations, without.iterations);
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-6 * std::abs(y.back()));
+}
+
+TEST(LinearSolver, auto_turns_to_the_direct_solver_where_iterations_fail) {
+  Lattice lattice(75);  // more unknowns than the direct solver takes at once in 3D
+  SolverOptions options;
+  options.max_iterations = 2;
+  MatrixTraits traits;
+  traits.dim = 3;
+  traits.symmetric = true;
+  LinearSolver solver(options, traits);
+  EXPECT_EQ(solver.numbering(lattice.dofs.n_global()), FixedUnknowns::unit_rows);
+  std::vector<double> load(static_cast<std::size_t>(lattice.dofs.n_global()), 1.0), x(load.size(), 0.0);
+  const auto report = solver.solve(lattice.system, lattice.dofs, Halo(75 * 75), load, x);
+  EXPECT_TRUE(report.solved) << report.cause;
+  EXPECT_TRUE(solver.direct());
+  EXPECT_LT(report.residual, 1e-9);
+  EXPECT_EQ(solver.numbering(lattice.dofs.n_global()), FixedUnknowns::removed);
+}
+
+TEST(LinearSolver, passes_the_case_s_options_to_petsc) {
+  const Problem p(8, 1, 0.5);
+  std::vector<double> x(p.rhs.size(), 0.0);
+  SolverOptions options;
+  options.petsc_options = "-ksp_type minres -pc_type jacobi -ksp_rtol 1e-12";
+  LinearSolver solver(options);
+  const auto report = solver.solve(p.system, p.dofs, p.halo, p.rhs, x);
+  EXPECT_TRUE(report.solved) << report.cause;
+  EXPECT_GT(report.iterations, 2);  // so it was not the direct solver
+  EXPECT_LT(p.error(x), 1e-9);
 }
 
 }  // namespace
