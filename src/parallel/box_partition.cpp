@@ -56,13 +56,13 @@ Choice best_cut(std::span<const std::int64_t> weight, std::int64_t cells_per_lay
 
 template <int dim>
 BoxPartition<dim>::BoxPartition(const MultiIndex<dim>& n_cells)
-    : n_cells_(n_cells), boxes_{Box<dim>{MultiIndex<dim>::Zero(), n_cells}}, tree_(1) {}
+    : n_cells_(n_cells), boxes_{IndexBox<dim>{MultiIndex<dim>::Zero(), n_cells}}, tree_(1) {}
 
 template <int dim>
 BoxPartition<dim>::BoxPartition(const MultiIndex<dim>& n_cells,
                                 std::span<const MultiIndex<dim>> cells_of_points, int n_parts)
     : n_cells_(n_cells), boxes_(static_cast<std::size_t>(n_parts)), tree_(1) {
-  const Box<dim> grid{MultiIndex<dim>::Zero(), n_cells};
+  const IndexBox<dim> grid{MultiIndex<dim>::Zero(), n_cells};
   if (n_parts < 1 || grid.count() < n_parts)
     input_error("a grid of {} cells cannot be split among {} ranks: use fewer ranks", grid.count(), n_parts);
   const bool inside = std::all_of(cells_of_points.begin(), cells_of_points.end(),
@@ -133,8 +133,8 @@ void BoxPartition<dim>::cut(const Open& open, const std::int64_t* histogram, std
   Cut& node = tree_[static_cast<std::size_t>(open.node)];
   node = {d, position, child, child + 1, 0};
   tree_.resize(tree_.size() + 2);
-  Box<dim> lower = open.box;
-  Box<dim> upper = open.box;
+  IndexBox<dim> lower = open.box;
+  IndexBox<dim> upper = open.box;
   lower.upper[d] = position;
   upper.lower[d] = position;
   next.push_back({lower, open.first, below, child});

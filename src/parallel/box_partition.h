@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/box.h"
+#include "parallel/index_box.h"
 #include "parallel/session.h"
 
 namespace wisp {
@@ -28,7 +28,7 @@ class BoxPartition {
   [[nodiscard]] int n_parts() const { return static_cast<int>(boxes_.size()); }
   [[nodiscard]] const MultiIndex<dim>& n_cells() const { return n_cells_; }
   /// The cells of one part.
-  [[nodiscard]] const Box<dim>& box(int part) const { return boxes_[static_cast<std::size_t>(part)]; }
+  [[nodiscard]] const IndexBox<dim>& box(int part) const { return boxes_[static_cast<std::size_t>(part)]; }
   /// The part that owns a cell of the grid.
   [[nodiscard]] int owner_of_cell(const MultiIndex<dim>& cell) const {
     int position = 0;
@@ -56,13 +56,13 @@ class BoxPartition {
   };
   /// A box still to be shared between the parts [first, first + n).
   struct Open {
-    Box<dim> box;
+    IndexBox<dim> box;
     int first = 0, n = 1, node = 0;
   };
   void cut(const Open& open, const std::int64_t* histogram, std::vector<Open>& next);
 
   MultiIndex<dim> n_cells_;
-  std::vector<Box<dim>> boxes_;
+  std::vector<IndexBox<dim>> boxes_;
   std::vector<Cut> tree_;
 };
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "parallel/box.h"
+#include "parallel/index_box.h"
 #include "parallel/box_partition.h"
 
 namespace wisp {
@@ -25,7 +25,7 @@ class Window {
   /// @param n_cells cells per direction of the whole grid
   /// @param owned   this rank's cells
   /// @throws RunError if the window has more nodes than an int can count
-  Window(const MultiIndex<dim>& n_cells, const Box<dim>& owned, int margin = default_margin)
+  Window(const MultiIndex<dim>& n_cells, const IndexBox<dim>& owned, int margin = default_margin)
       : grid_cells_{MultiIndex<dim>::Zero(), n_cells},
         grid_nodes_{MultiIndex<dim>::Zero(), n_cells + MultiIndex<dim>::Ones()},
         owned_cells_(owned),
@@ -46,12 +46,12 @@ class Window {
 
   [[nodiscard]] int margin() const { return margin_; }
   /// Boxes of the whole grid, of this rank's own part, and of the window with its margin.
-  [[nodiscard]] const Box<dim>& grid_cells() const { return grid_cells_; }
-  [[nodiscard]] const Box<dim>& grid_nodes() const { return grid_nodes_; }
-  [[nodiscard]] const Box<dim>& owned_cells() const { return owned_cells_; }
-  [[nodiscard]] const Box<dim>& owned_nodes() const { return owned_nodes_; }
-  [[nodiscard]] const Box<dim>& cells() const { return cells_; }
-  [[nodiscard]] const Box<dim>& nodes() const { return nodes_; }
+  [[nodiscard]] const IndexBox<dim>& grid_cells() const { return grid_cells_; }
+  [[nodiscard]] const IndexBox<dim>& grid_nodes() const { return grid_nodes_; }
+  [[nodiscard]] const IndexBox<dim>& owned_cells() const { return owned_cells_; }
+  [[nodiscard]] const IndexBox<dim>& owned_nodes() const { return owned_nodes_; }
+  [[nodiscard]] const IndexBox<dim>& cells() const { return cells_; }
+  [[nodiscard]] const IndexBox<dim>& nodes() const { return nodes_; }
 
   /// Numbers of local cells and nodes, margin and phantoms included: the lengths of arrays.
   [[nodiscard]] int n_cells() const { return static_cast<int>(cells_.count()); }
@@ -83,7 +83,7 @@ class Window {
   [[nodiscard]] bool node_in_grid(const MultiIndex<dim>& node) const { return grid_nodes_.contains(node); }
 
  private:
-  [[nodiscard]] static MultiIndex<dim> inverse(int number, const Box<dim>& box) {
+  [[nodiscard]] static MultiIndex<dim> inverse(int number, const IndexBox<dim>& box) {
     MultiIndex<dim> result = box.lower;
     for (int d = 0; d < dim; ++d) {
       const int extent = box.upper[d] - box.lower[d];
@@ -93,7 +93,7 @@ class Window {
     return result;
   }
 
-  Box<dim> grid_cells_, grid_nodes_, owned_cells_, owned_nodes_, cells_, nodes_;
+  IndexBox<dim> grid_cells_, grid_nodes_, owned_cells_, owned_nodes_, cells_, nodes_;
   MultiIndex<dim> cell_strides_ = MultiIndex<dim>::Zero();
   MultiIndex<dim> node_strides_ = MultiIndex<dim>::Zero();
   int margin_;

@@ -1,6 +1,7 @@
 // Small tensors: Eigen fixed-size types under the names that the rest of Wisp uses.
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/LU>  // inverse and determinant
 
 namespace wisp {
 
@@ -16,14 +17,15 @@ using Mat = Eigen::Matrix<double, dim, dim>;
 template <int dim>
 inline constexpr int sym_size = dim == 2 ? 4 : 6;
 
-/// Symmetric second-order tensor as tensor components (shear **without** a factor 2), in the one Voigt order of Wisp:
-/// 2D plane strain xx, yy, zz, xy; 3D xx, yy, zz, xy, yz, zx.
+/// Symmetric second-order tensor as tensor components (shear **without** a factor 2), in the one Voigt order
+/// of Wisp: 2D plane strain xx, yy, zz, xy; 3D xx, yy, zz, xy, yz, zx.
 template <int dim>
 using Sym = Eigen::Matrix<double, sym_size<dim>, 1>;
 
-/// Fourth-order map between symmetric tensors in the same order: d(tau_a) = D_ab d(eps_b) where both sides hold tensor
-/// components; column b of a shear pair is the derivative with respect to the *engineering* shear 2 eps_xy, so that D
-/// is the symmetric matrix of the textbooks and strains enter with their shear doubled (`engineering`).
+/// Fourth-order map between symmetric tensors in the same order: d(tau_a) = D_ab d(eps_b) where both sides
+/// hold tensor components; column b of a shear pair is the derivative with respect to the *engineering* shear
+/// 2 eps_xy, so that D is the symmetric matrix of the textbooks and strains enter with their shear doubled
+/// (`engineering`).
 template <int dim>
 using SymMap = Eigen::Matrix<double, sym_size<dim>, sym_size<dim>>;
 
@@ -44,7 +46,8 @@ inline Sym<dim> symmetric(const Mat<dim>& a) {
   if constexpr (dim == 2) {
     s << a(0, 0), a(1, 1), 0.0, 0.5 * (a(0, 1) + a(1, 0));
   } else {
-    s << a(0, 0), a(1, 1), a(2, 2), 0.5 * (a(0, 1) + a(1, 0)), 0.5 * (a(1, 2) + a(2, 1)), 0.5 * (a(2, 0) + a(0, 2));
+    s << a(0, 0), a(1, 1), a(2, 2), 0.5 * (a(0, 1) + a(1, 0)), 0.5 * (a(1, 2) + a(2, 1)),
+        0.5 * (a(2, 0) + a(0, 2));
   }
   return s;
 }
@@ -73,6 +76,42 @@ inline double contract(const Sym<dim>& s, const Sym<dim>& t) {
   double sum = s[0] * t[0] + s[1] * t[1] + s[2] * t[2];
   for (int a = 3; a < sym_size<dim>; ++a) sum += 2.0 * s[a] * t[a];
   return sum;
+}
+
+/// The identity, out-of-plane component included.
+template <int dim>
+inline Sym<dim> sym_identity() {
+  Sym<dim> s = Sym<dim>::Zero();
+  s[0] = s[1] = s[2] = 1.0;
+  return s;
+}
+
+/// Deviator s - tr(s)/3 I; three-dimensional trace in plane strain too.
+template <int dim>
+inline Sym<dim> deviator(const Sym<dim>& s) {
+  Sym<dim> d = s;
+  const double mean = trace<dim>(s) / 3.0;
+  d[0] -= mean;
+  d[1] -= mean;
+  d[2] -= mean;
+  return d;
+}
+
+/// The same tensor with its shear components doubled: what a `SymMap` is applied to, D * engineering(eps).
+template <int dim>
+inline Sym<dim> engineering(const Sym<dim>& s) {
+  Sym<dim> e = s;
+  for (int a = 3; a < sym_size<dim>; ++a) e[a] *= 2.0;
+  return e;
+}
+
+/// a s a^T; in plane strain `a` acts in the plane and the out-of-plane component stays as it is.
+template <int dim>
+inline Sym<dim> congruence(const Mat<dim>& a, const Sym<dim>& s) {
+  const Mat<dim> r = a * matrix<dim>(s) * a.transpose();
+  Sym<dim> t = symmetric<dim>(r);
+  if constexpr (dim == 2) t[2] = s[2];
+  return t;
 }
 
 }  // namespace wisp

@@ -17,6 +17,7 @@ BANNED = ("Manager", "Handler", "Helper", "Utils", "Data", "Info", "Base")
 
 ROOM = re.compile(r"^\s*wisp_room\(\s*(\w+)\s+(\d+)", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"](\w+)/[^">]+[">]')
+QUOTED = re.compile(r'^\s*#\s*include\s*"([^"]*)"')
 TYPE = re.compile(r"^\s*(?:template\s*<.*>\s*)?(?:class|struct|enum(?:\s+class)?|union)\s+(?:\[\[\w+\]\]\s*)?(\w+)")
 ALIAS = re.compile(r"^\s*using\s+(\w+)\s*=")
 
@@ -67,6 +68,9 @@ def check(root):
             if found and found[1] in layers and found[1] != room and layers[found[1]] >= layers[room]:
                 offences.append(f"{path.relative_to(root)}:{number}: {room} (layer {layers[room]}) must not include "
                                 f"{found[1]} (layer {layers[found[1]]})")
+            quoted = QUOTED.match(code)
+            if quoted and quoted[1].split("/")[0] not in layers:
+                offences.append(f'{path.relative_to(root)}:{number}: includes "{quoted[1]}"; write "room/file.h"')
     everything = [path for folder in ("src", "verification", "tests", "benchmarks") for path in sources(root / folder)]
     for path in everything:
         count = len(path.read_text().splitlines())
@@ -96,6 +100,8 @@ BAD = {
     "verification in a room": ("src/io/vtu.h", '#include "verification/rows.h"\n', "src/io/vtu.h:1: io (layer 7)"),
     "angle brackets": ("src/core/error.h", "/* why */ #include <grid/grid.h>\n", "src/core/error.h:1: core"),
     "after a comment": ("src/core/error.h", '/* one\n*/\n#include "io/vtu.h"\n', "src/core/error.h:3: core"),
+    "no room named": ("src/core/error.h", '#include "describe.h"\n', 'src/core/error.h:1: includes "describe.h"'),
+    "a path upwards": ("src/grid/grid.h", '#include "../io/vtu.h"\n', 'src/grid/grid.h:1: includes "../io'),
     "a folder without a layer": ("src/misc/misc.h", "struct Anything {};\n", "src/misc:1: this folder has no wisp_room"),
     "a long file": ("src/io/vtu.h", "\n" * (MOST_LINES + 1), f"src/io/vtu.h:{MOST_LINES + 1}: {MOST_LINES + 1} lines"),
     "a long test": ("tests/io/vtu_test.cpp", "\n" * 700, "tests/io/vtu_test.cpp:601: 700 lines"),

@@ -11,7 +11,7 @@ using MultiIndex = Eigen::Matrix<int, dim, 1>;
 
 /// The half-open box [lower, upper) of multi-indices.
 template <int dim>
-struct Box {
+struct IndexBox {
   MultiIndex<dim> lower = MultiIndex<dim>::Zero();
   MultiIndex<dim> upper = MultiIndex<dim>::Zero();
 
@@ -26,12 +26,12 @@ struct Box {
       if (index[d] < lower[d] || index[d] >= upper[d]) return false;
     return true;
   }
-  friend bool operator==(const Box& a, const Box& b) { return a.lower == b.lower && a.upper == b.upper; }
+  friend bool operator==(const IndexBox& a, const IndexBox& b) { return a.lower == b.lower && a.upper == b.upper; }
 };
 
 /// Calls `visit(index)` for every multi-index of the box, x fastest.
 template <int dim, class Visit>
-void for_each_in(const Box<dim>& box, Visit&& visit) {
+void for_each_in(const IndexBox<dim>& box, Visit&& visit) {
   if (box.count() == 0) return;
   MultiIndex<dim> index = box.lower;
   while (true) {

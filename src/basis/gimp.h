@@ -1,0 +1,119 @@
+// Generalised interpolation: hat functions averaged over each point's domain.
+#pragma once
+#include <algorithm>
+
+#include "basis/options.h"
+#include "basis/stencil.h"
+#include "grid/structured.h"
+
+namespace wisp {
+
+/// GIMP functions (Bardenhagen and Kober 2004) with box domains of half-lengths l, which follow the stretch
+/// (Charlton, Coombs and Augarde 2017). In one direction S_i = 1/(2l) integral over [x-l, x+l] of the hat
+/// N_i, and dS_i that of its derivative. Each cell's share of the integral is exact by its midpoint, so one
+/// formula holds for any l >= 0 and any spacing: it is the closed form [Psi(x+l) - Psi(x-l)]/(2l) without its
+/// cancellation at small l.
+///
+/// `width` functions a direction: 3 as long as 2l is at most a cell side, 5 as long as 2l is at most three.
+template <int dim, int width_>
+class Gimp : public GimpOptions {
+ public:
+  static constexpr int width = width_;
+  static constexpr int cells_touched = width - 1;
+  static constexpr int degree = 1;
+  static constexpr int continuity = 1;
+  static constexpr bool non_negative = true;
+  static constexpr bool uses_domains = true;
+  using Stencil = TensorStencil<dim, width>;
+  static_assert(width == 3 || width == 5);
+
+  Gimp(const StructuredGrid<dim>& grid, const NodeNumbering<dim>& numbering)
+      : grid_(&grid), numbering_(numbering) {}
+
+  /// Stencil at x inside the grid of a domain with half-lengths l (m), 2l at most (width-1)/2 ... see above.
+  inline __attribute__((always_inline)) Stencil tabulate(const Vec<dim>& x,
+                                                         const Vec<dim>& half_length) const {
+    Stencil s;
+    s.stride = numbering_.stride;
+    s.base = 0;
+    for (int d = 0; d < dim; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      const int base = tabulate_direction(d, x[d], half_length[d], s.value[k], s.derivative[k]);
+      s.base += (base - numbering_.lower[k]) * s.stride[k];
+    }
+    return s;
+  }
+
+  /// Overlaps smaller than this share of a cell are rounding, not contact, and count as touching.
+  static constexpr double touching = 1e-12;
+
+ private:
+  inline __attribute__((always_inline)) int tabulate_direction(int d, double x, double l,
+                                                               std::array<double, width>& value,
+                                                               std::array<double, width>& derivative) const {
+    const double* lines = grid_->lines(d);
+    const double a = x - l, b = x + l;
+    int first = grid_->locate(d, a);
+    const double guard = touching * (lines[first + 1] - lines[first]);
+    if (lines[first + 1] - a <= guard && l > 0) ++first;
+    int base = first;
+    if constexpr (width == 5) {
+      int centre = grid_->locate(d, x), last = grid_->locate(d, b);
+      if (last > centre && b - lines[last] <= guard) --last;
+      base = std::max(centre - 2, last - 3);
+    }
+    value.fill(0.0);
+    derivative.fill(0.0);
+    const double per_length = l > 0 ? 0.5 / l : 0.0;
+    double rest = 1.0;
+    // From the highest cell down to the first: every cell but the first takes its share, the first the rest,
+    // so that the shares sum to one to rounding and l = 0 needs no branch.
+    for (int c = cells_touched - 1; c > 0; --c) {
+      const int cell = base + c;
+      const double from = std::max(a, lines[cell]), to = std::min(b, lines[cell + 1]);
+      double share = (to - from > guard && cell > first) ? (to - from) * per_length : 0.0;
+      add_cell(lines, cell, c, 0.5 * (from + to), share, value, derivative);
+      rest -= share;
+    }
+    if constexpr (width == 3) {
+      const double from = std::max(a, lines[base]), to = std::max(from, std::min(b, lines[base + 1]));
+      add_cell(lines, base, 0, 0.5 * (from + to), rest, value, derivative);
+    } else {
+      const double from = std::max(a, lines[first]), to = std::max(from, std::min(b, lines[first + 1]));
+      add_cell(lines, first, first - base, 0.5 * (from + to), rest, value, derivative);
+    }
+    if (base < 0 || base + width - 1 > grid_->cells(d)) fold(d, base, value, derivative);
+    return base;
+  }
+
+  static inline __attribute__((always_inline)) void add_cell(const double* lines, int cell, int k,
+                                                             double middle, double share,
+                                                             std::array<double, width>& value,
+                                                             std::array<double, width>& derivative) {
+    const double per_h = 1.0 / (lines[cell + 1] - lines[cell]);
+    const double r = (middle - lines[cell]) * per_h;
+    const auto i = static_cast<std::size_t>(k);
+    value[i] += share * (1.0 - r);
+    value[i + 1] += share * r;
+    derivative[i] -= share * per_h;
+    derivative[i + 1] += share * per_h;
+  }
+
+  /// The part of a domain beyond the edge of the grid belongs to the edge function, as if it continued there
+  /// as the constant 1: the functions keep summing to one and no mass goes to functions outside the grid.
+  void fold(int d, int base, std::array<double, width>& value, std::array<double, width>& derivative) const {
+    for (int k = 0; k < width; ++k) {
+      const int node = base + k;
+      const int inside = std::clamp(node, 0, grid_->cells(d));
+      if (inside == node) continue;
+      const auto from = static_cast<std::size_t>(k), to = static_cast<std::size_t>(inside - base);
+      value[to] += value[from], derivative[to] += derivative[from];
+      value[from] = 0.0, derivative[from] = 0.0;
+    }
+  }
+
+  const StructuredGrid<dim>* grid_;
+  NodeNumbering<dim> numbering_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,19 @@
+// Every shape that a case file can name. A new one is one file and one word here (and in region.h if it has
+// an inside).
+#pragma once
+#include <variant>
+
+#include "geometry/ball.h"
+#include "geometry/box.h"
+#include "geometry/point_file.h"
+#include "geometry/polygon.h"
+
+namespace wisp {
+
+/// Shapes of which a body can be made.
+using AnyShape = std::variant<Box, Ball, Polygon, PointFile>;
+
+/// Shapes with an inside, for choosing points or nodes.
+using AnyRegion = std::variant<Box, Ball, Polygon>;
+
+}  // namespace wisp
