@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <petscvec.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -81,6 +82,20 @@ TEST(Session, PetscErrorsBecomeExceptionsOfOneLine) {
     EXPECT_NE(text.find("Vec"), std::string::npos) << text;
   }
   petsc(VecDestroy(&v));
+}
+
+TEST(Session, KnowsWhetherAllRanksFailed) {
+  // The environment tells one rank to fail alone while the others wait for it: its session must end them all.
+  Session session;
+  const char* alone = std::getenv("WISP_FAIL_ALONE_ON_RANK");
+  if (alone == nullptr) {
+    EXPECT_TRUE(session.failed_together());
+  } else if (std::to_string(Session::rank()) == alone) {
+    std::printf("failed together: %s\n", session.failed_together() ? "yes" : "no");
+    std::fflush(stdout);
+  } else {
+    Session::barrier();
+  }
 }
 
 // Passes, unless the environment says which rank is to fail: then the launcher's exit status must tell.
