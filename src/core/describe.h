@@ -9,6 +9,8 @@
 // Defaults are the member initialisers, so they stand in one place.
 #pragma once
 #include <array>
+#include <concepts>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -19,13 +21,9 @@
 
 namespace wisp {
 
-/// One line of a description: a key of the case file bound to a member.
-template <class Owner, class T>
-struct Key {
-  using owner_type = Owner;
-  using value_type = T;
+/// What a key admits, apart from the type of its member.
+struct KeyRules {
   std::string_view name;
-  T Owner::*member;
   std::string_view unit;     ///< SI unit, "-" if dimensionless, "" if it has none (text, switches)
   std::string_view meaning;  ///< one line
   double least = -std::numeric_limits<double>::infinity();
@@ -33,7 +31,19 @@ struct Key {
   bool least_excluded = false;
   bool most_excluded = false;
   bool is_required = false;
-  bool is_per_direction = false;  ///< a list with one value for each direction of the case
+  bool is_per_direction = false;    ///< a list with one entry for each direction of the case
+  bool is_existing_file = false;    ///< text that names a file, relative to the folder of the case file
+  bool is_empty_allowed = false;    ///< an empty list or empty text is meaningful
+  int length = 0;                   ///< number of entries of a list, 0 if any
+  std::string_view sample = {};     ///< TOML text that templates show where there is no default
+};
+
+/// One line of a description: a key of the case file bound to a member. Ranges hold for every number of a list.
+template <class Owner, class T>
+struct Key : KeyRules {
+  using owner_type = Owner;
+  using value_type = T;
+  T Owner::*member;
 
   constexpr Key at_least(double v) const { auto k = *this; k.least = v; return k; }
   constexpr Key at_most(double v) const { auto k = *this; k.most = v; return k; }
@@ -42,11 +52,15 @@ struct Key {
   constexpr Key positive() const { return above(0.0); }
   constexpr Key required() const { auto k = *this; k.is_required = true; return k; }
   constexpr Key per_direction() const { auto k = *this; k.is_per_direction = true; return k; }
+  constexpr Key existing_file() const { auto k = *this; k.is_existing_file = true; return k; }
+  constexpr Key may_be_empty() const { auto k = *this; k.is_empty_allowed = true; return k; }
+  constexpr Key entries(int n) const { auto k = *this; k.length = n; return k; }
+  constexpr Key example(std::string_view toml) const { auto k = *this; k.sample = toml; return k; }
 };
 
 template <class Owner, class T>
 constexpr Key<Owner, T> key(std::string_view name, T Owner::*member, std::string_view unit, std::string_view meaning) {
-  return {name, member, unit, meaning};
+  return {{.name = name, .unit = unit, .meaning = meaning}, member};
 }
 
 /// Names of an enumeration's values, specialised beside the enumeration:

@@ -1,0 +1,335 @@
+// Checks of a case across its tables. What one key alone admits is checked by the reader.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/nearest.h"
+#include "geometry/region.h"
+#include "grid/structured.h"
+#include "io/case.h"
+#include "io/toml_reader.h"
+
+namespace wisp {
+namespace {
+
+/// Throws again what a lower room complains about, with the place in the file.
+template <class F>
+auto located(const Context& context, const std::string& path, F&& f) {
+  try {
+    return f();
+  } catch (const InputError& error) {
+    context.fail_at(path, error.what());
+  }
+}
+
+std::string place(std::string_view list, std::size_t i, std::string_view key = {}) {
+  return fmt::format("{}[{}]{}{}", list, i, key.empty() ? "" : ".", key);
+}
+
+/// Names within a list of tables are unique.
+template <class T>
+void check_unique(const std::vector<T>& list, std::string_view name, const Context& context) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!seen.insert(list[i].label).second)
+      context.fail_at(place(name, i, "name"), fmt::format("the name \"{}\" is taken already", list[i].label));
+}
+
+/// A list of vectors with one component per direction.
+void check_rows(const std::vector<std::vector<double>>& rows, const std::string& path,
+                const Context& context) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (static_cast<int>(rows[i].size()) != context.dimension)
+      context.fail_at(fmt::format("{}[{}]", path, i),
+                      fmt::format("expected {} numbers, found {}", context.dimension, rows[i].size()));
+}
+
+/// Letters x, y, z as directions.
+int direction(const std::string& letter, int dim, const std::string& path, const Context& context) {
+  const std::string valid = dim == 2 ? "xy" : "xyz";
+  const auto d = letter.size() == 1 ? valid.find(letter) : std::string::npos;
+  if (d == std::string::npos)
+    context.fail_at(path, fmt::format("expected {}, found \"{}\"",
+                                      dim == 2 ? "\"x\" or \"y\"" : "\"x\", \"y\" or \"z\"", letter));
+  return static_cast<int>(d);
+}
+
+void check_body_name(const Case& c, const std::string& body, const std::string& path,
+                     const Context& context) {
+  std::vector<std::string> names;
+  for (const auto& b : c.bodies) names.push_back(b.label);
+  if (std::find(names.begin(), names.end(), body) == names.end())
+    context.fail_at(path, fmt::format("there is no body \"{}\"{}", body, suggestion(body, names)));
+}
+
+template <int dim>
+std::string text(const Vec<dim>& x) {
+  return dim == 2 ? fmt::format("({}, {})", x[0], x[1]) : fmt::format("({}, {}, {})", x[0], x[1], x[dim - 1]);
+}
+
+template <int dim>
+class Checks {
+ public:
+  Checks(const Case& c, const Context& context)
+      : case_(c), context_(context), grid_(make_grid(c.grid, context)) {}
+
+  void all() {
+    bodies();
+    boundaries();
+    loads();
+    tractions();
+    stabilisation();
+    stages();
+    output();
+  }
+
+ private:
+  static StructuredGrid<dim> make_grid(const StructuredGridOptions& g, const Context& context) {
+    const bool corners = !g.lower.empty() || !g.upper.empty() || !g.cells.empty();
+    if (corners && !g.coordinates.empty())
+      context.fail_at("grid.coordinates", "give either lower, upper and cells, or coordinates");
+    if (!corners && g.coordinates.empty())
+      context.fail_at("grid", "expected lower, upper and cells, or coordinates");
+    if (corners && (g.lower.empty() || g.upper.empty() || g.cells.empty()))
+      context.fail_at("grid", fmt::format("missing key '{}': lower, upper and cells go together",
+                                          g.lower.empty() ? "lower" : (g.upper.empty() ? "upper" : "cells")));
+    for (std::size_t d = 0; corners && d < dim; ++d)
+      if (!(g.lower[d] < g.upper[d]))
+        context.fail_at(fmt::format("grid.upper[{}]", d),
+                        fmt::format("expected more than lower, {} m, found {} m", g.lower[d], g.upper[d]));
+    for (std::size_t d = 0; d < g.coordinates.size(); ++d) check_lines(g.coordinates[d], d, context);
+    return located(context, "grid", [&] { return StructuredGrid<dim>(g); });
+  }
+
+  static void check_lines(const std::vector<double>& lines, std::size_t d, const Context& context) {
+    const std::string path = fmt::format("grid.coordinates[{}]", d);
+    if (lines.size() < 2)
+      context.fail_at(path, fmt::format("expected at least 2 grid lines, found {}", lines.size()));
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      if (!(lines[i - 1] < lines[i]))
+        context.fail_at(fmt::format("{}[{}]", path, i),
+                        fmt::format("grid lines must increase: {} follows {}", lines[i], lines[i - 1]));
+  }
+
+  void bodies() {
+    check_unique(case_.bodies, "body", context_);
+    for (std::size_t i = 0; i < case_.bodies.size(); ++i) {
+      shape(case_.bodies[i], i);
+      sampling(case_.bodies[i], i);
+      initial_state(case_.bodies[i], i);
+    }
+  }
+
+  void shape(const BodyOptions& body, std::size_t i) {
+    const std::string path = place("body", i, "shape");
+    const Block<dim> box = located(context_, path, [&] {
+      if (const auto* points = std::get_if<PointFile>(&body.shape))
+        return bounds<dim>(read_points<dim>(*points, context_.file().folder));
+      return bounds(region<dim>(body.shape, context_.file().folder));
+    });
+    const double slack = 1e-9 * grid_.shortest_side();
+    for (int d = 0; d < dim; ++d)
+      if (box.lower[d] < grid_.lower()[d] - slack || box.upper[d] > grid_.upper()[d] + slack)
+        context_.fail_at(
+            path, fmt::format("body \"{}\" reaches from {} to {} m, outside of the grid from {} to {} m",
+                              body.label, text<dim>(box.lower), text<dim>(box.upper),
+                              text<dim>(grid_.lower()), text<dim>(grid_.upper())));
+  }
+
+  void sampling(const BodyOptions& body, std::size_t i) {
+    const std::string path = place("body", i, "sampling");
+    if (std::holds_alternative<PointFile>(body.shape) && context_.given(path))
+      context_.fail_at(path, "the points come from a file: there is nothing to sample");
+    const bool divided = body.sampling.method == SamplingMethod::divisions;
+    if (divided && body.sampling.divisions.empty())
+      context_.fail_at(path, "method \"divisions\" needs the key 'divisions'");
+    if (!divided && !body.sampling.divisions.empty())
+      context_.fail_at(path + ".divisions", "only for method = \"divisions\"");
+    if (divided && context_.given(path + ".points_per_cell"))
+      context_.fail_at(path + ".points_per_cell", "not for method = \"divisions\"");
+  }
+
+  void initial_state(const BodyOptions& body, std::size_t i) {
+    if (!body.velocity_gradient.empty())
+      check_rows(body.velocity_gradient, place("body", i, "velocity_gradient"), context_);
+    if (!body.velocity_centre.empty() && body.velocity_gradient.empty())
+      context_.fail_at(place("body", i, "velocity_centre"), "has no meaning without velocity_gradient");
+    constexpr int components = dim == 2 ? 4 : 6;
+    if (!body.initial_stress.empty() && static_cast<int>(body.initial_stress.size()) != components)
+      context_.fail_at(
+          place("body", i, "initial_stress"),
+          fmt::format("expected {} numbers ({}), found {}", components,
+                      dim == 2 ? "xx, yy, zz, xy" : "xx, yy, zz, xy, yz, zx", body.initial_stress.size()));
+    if (!body.initial_stress.empty() && body.k0)
+      context_.fail_at(place("body", i, "k0"), "give either initial_stress or k0");
+  }
+
+  /// Index of the grid line at x in direction d; error if there is none.
+  void check_line(int d, double x, const std::string& path) {
+    double best = std::numeric_limits<double>::infinity(), nearest_line = 0.0;
+    for (int i = 0; i <= grid_.cells(d); ++i)
+      if (const double gap = std::abs(grid_.line(d, i) - x); gap < best) {
+        best = gap;
+        nearest_line = grid_.line(d, i);
+      }
+    if (best > 1e-6 * grid_.shortest_side())
+      context_.fail_at(
+          path, fmt::format("{} = {} m is not a grid line; the nearest is {} m", "xyz"[d], x, nearest_line));
+  }
+
+  void boundaries() {
+    check_unique(case_.boundaries, "boundary", context_);
+    for (std::size_t i = 0; i < case_.boundaries.size(); ++i) boundary(case_.boundaries[i], i);
+  }
+
+  void boundary(const ConformingOptions& b, std::size_t i) {
+    const auto at = [&](std::string_view key) { return place("boundary", i, key); };
+    if (b.normal.empty() == b.node.empty())
+      context_.fail_at(at(b.normal.empty() ? "" : "node"),
+                       "give either normal and at (a grid line or plane), or node");
+    if (!b.normal.empty()) {
+      const int d = direction(b.normal, dim, at("normal"), context_);
+      if (!context_.given(at("at")))
+        context_.fail_at(at(""), "missing key 'at' (m): coordinate along 'normal'");
+      check_line(d, b.at, at("at"));
+    } else {
+      if (context_.given(at("at"))) context_.fail_at(at("at"), "not together with node");
+      for (int d = 0; d < dim; ++d)
+        check_line(d, b.node[static_cast<std::size_t>(d)], fmt::format("{}[{}]", at("node"), d));
+      if (!b.lower.empty() || !b.upper.empty())
+        context_.fail_at(at(b.lower.empty() ? "upper" : "lower"), "not together with node");
+    }
+    std::set<int> seen;
+    for (std::size_t k = 0; k < b.directions.size(); ++k) {
+      const std::string path = fmt::format("{}[{}]", at("directions"), k);
+      if (!seen.insert(direction(b.directions[k], dim, path, context_)).second)
+        context_.fail_at(path, fmt::format("\"{}\" is listed twice", b.directions[k]));
+    }
+    for (std::size_t d = 0; !b.lower.empty() && !b.upper.empty() && d < dim; ++d)
+      if (b.lower[d] > b.upper[d])
+        context_.fail_at(fmt::format("{}[{}]", at("upper"), d),
+                         fmt::format("expected at least lower, {} m, found {} m", b.lower[d], b.upper[d]));
+    if (b.displacement && b.velocity)
+      context_.fail_at(at("velocity"), "give either displacement or velocity");
+  }
+
+  void loads() {
+    check_unique(case_.loads, "load", context_);
+    for (std::size_t i = 0; i < case_.loads.size(); ++i) {
+      check_body_name(case_, case_.loads[i].body, place("load", i, "body"), context_);
+      check_rows(case_.loads[i].nearest, place("load", i, "nearest"), context_);
+    }
+  }
+
+  void tractions() {
+    check_unique(case_.tractions, "traction", context_);
+    for (std::size_t i = 0; i < case_.tractions.size(); ++i) {
+      const auto& t = case_.tractions[i];
+      check_body_name(case_, t.body, place("traction", i, "body"), context_);
+      if (t.edges.size() != dim - 1)
+        context_.fail_at(place("traction", i, "edges"),
+                         fmt::format("expected {}, found {}",
+                                     dim == 2 ? "one edge vector" : "two edge vectors", t.edges.size()));
+      check_rows(t.edges, place("traction", i, "edges"), context_);
+      if (t.points.size() != t.edges.size())
+        context_.fail_at(
+            place("traction", i, "points"),
+            fmt::format("expected {} (one for each edge), found {}", t.edges.size(), t.points.size()));
+      if (!has_area(t.edges)) context_.fail_at(place("traction", i, "edges"), "the edges span no area");
+      if (t.traction.empty() == !t.pressure)
+        context_.fail_at(place("traction", i, t.pressure ? "pressure" : ""),
+                         "give either traction or pressure");
+      if (t.pressure && context_.given(place("traction", i, "factor")))
+        context_.fail_at(place("traction", i, "factor"), "is for traction; give the pressure itself in time");
+    }
+  }
+
+  static bool has_area(const std::vector<std::vector<double>>& edges) {
+    if constexpr (dim == 2) {
+      return std::hypot(edges[0][0], edges[0][1]) > 0.0;
+    } else {
+      const Eigen::Map<const Vec<3>> a(edges[0].data()), b(edges[1].data());
+      const Vec<3> n(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+      return n.norm() > 1e-12 * a.norm() * b.norm();
+    }
+  }
+
+  void stabilisation() {
+    if (!case_.stabilisation) return;
+    if (context_.given("stabilisation.scale") && case_.stabilisation->units != GhostUnits::paper)
+      context_.fail_at("stabilisation.scale", "only for units = \"paper\"");
+    const auto lumped = [](const AnyStage& stage) {
+      const auto* e = std::get_if<ExplicitOptions>(&stage);
+      return e && e->mass == Mass::lumped;
+    };
+    if (std::all_of(case_.stages.begin(), case_.stages.end(), lumped))
+      context_.fail_at("stabilisation", "no stage uses it: explicit stages do with mass = \"consistent\"");
+  }
+
+  void stages() {
+    for (std::size_t i = 0; i < case_.stages.size(); ++i) {
+      if (const auto* e = std::get_if<ExplicitOptions>(&case_.stages[i]))
+        explicit_stage(*e, i);
+      else if (std::holds_alternative<QuasiStaticOptions>(case_.stages[i]))
+        static_stage(i);
+      else
+        need_density(i, "implicit dynamics");
+    }
+  }
+
+  void need_density(std::size_t stage, std::string_view what) {
+    for (std::size_t b = 0; b < case_.bodies.size(); ++b)
+      if (!(density(case_.bodies[b].material) > 0.0))
+        context_.fail_at(place("body", b, "material.density"),
+                         fmt::format("expected a number > 0 kg/m3: stage {} is {}", stage + 1, what));
+  }
+
+  void explicit_stage(const ExplicitOptions& e, std::size_t i) {
+    need_density(i, "explicit");
+    const auto at = [&](std::string_view key) { return place("stage", i, key); };
+    const char* first = e.steps ? "steps" : (e.dt ? "dt" : nullptr);
+    if (e.steps && e.dt) context_.fail_at(at("dt"), "give either steps, dt or cfl");
+    if (first && context_.given(at("cfl")))
+      context_.fail_at(at("cfl"), fmt::format("give either steps, dt or cfl; {} is given", first));
+    if (e.dt && *e.dt > e.duration)
+      context_.fail_at(at("dt"),
+                       fmt::format("expected at most the duration, {} s, found {} s", e.duration, *e.dt));
+    if (context_.given(at("pic_fraction")) && e.velocity_update != VelocityUpdate::flip)
+      context_.fail_at(at("pic_fraction"), "only for velocity_update = \"flip\"");
+    const auto no_waves = [](const BodyOptions& b) { return !(p_wave_modulus(b.material) > 0.0); };
+    if (!first && std::all_of(case_.bodies.begin(), case_.bodies.end(), no_waves))
+      context_.fail_at(
+          at("dt"), "the wave speed of every body is zero, so that cfl gives no time step: give dt or steps");
+  }
+
+  void static_stage(std::size_t i) {
+    if (case_.boundaries.empty())
+      context_.fail_at(place("stage", i),
+                       "a quasi-static stage needs at least one [[boundary]] to hold the bodies");
+    for (std::size_t b = 0; b < case_.bodies.size(); ++b)
+      if (!(p_wave_modulus(case_.bodies[b].material) > 0.0))
+        context_.fail_at(place("body", b, "material.young_modulus"),
+                         fmt::format("expected a number > 0 Pa: stage {} is quasi-static", i + 1));
+  }
+
+  void output() {
+    check_unique(case_.output.track, "output.track", context_);
+    for (std::size_t i = 0; i < case_.output.track.size(); ++i)
+      check_body_name(case_, case_.output.track[i].body, place("output.track", i, "body"), context_);
+  }
+
+  const Case& case_;
+  const Context& context_;
+  StructuredGrid<dim> grid_;
+};
+
+}  // namespace
+
+void check_case(const Case& c, const Context& context) {
+  if (c.dimension == 2)
+    Checks<2>(c, context).all();
+  else
+    Checks<3>(c, context).all();
+}
+
+}  // namespace wisp
