@@ -31,13 +31,7 @@ int boundary_bits(const Space<dim>& space, const ActiveCells& active, const Mult
 template <int dim>
 std::vector<GhostFacet> ghost_facets(const Space<dim>& space, const ActiveCells& active,
                                      const std::vector<Body<dim>>& bodies,
-                                     const std::vector<Conforming<dim>>& conditions) {
-  std::array<bool, 2 * dim> held_edge{};
-  for (const auto& condition : conditions)
-    for (int d = 0; d < dim; ++d)
-      for (int side = 0; side < 2; ++side)
-        held_edge[static_cast<std::size_t>(2 * d + side)] |= condition.on_edge(d, side);
-
+                                     const std::array<bool, 2 * dim>& held_edge) {
   std::vector<GhostFacet> facets;
   const auto& window = space.window();
   for_each_in(window.owned_cells(), [&](const MultiIndex<dim>& cell) {
@@ -96,11 +90,9 @@ void add_ghost(const Space<dim>& space, const std::vector<GhostFacet>& facets, c
 }
 
 template std::vector<GhostFacet> ghost_facets<2>(const Space<2>&, const ActiveCells&,
-                                                 const std::vector<Body<2>>&,
-                                                 const std::vector<Conforming<2>>&);
+                                                 const std::vector<Body<2>>&, const std::array<bool, 4>&);
 template std::vector<GhostFacet> ghost_facets<3>(const Space<3>&, const ActiveCells&,
-                                                 const std::vector<Body<3>>&,
-                                                 const std::vector<Conforming<3>>&);
+                                                 const std::vector<Body<3>>&, const std::array<bool, 6>&);
 template void add_ghost_pattern<2>(const Space<2>&, const std::vector<GhostFacet>&, BlockMatrix&);
 template void add_ghost_pattern<3>(const Space<3>&, const std::vector<GhostFacet>&, BlockMatrix&);
 template void add_ghost<2>(const Space<2>&, const std::vector<GhostFacet>&, const GhostOptions&, GhostMatrix,

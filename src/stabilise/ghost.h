@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "basis/facet.h"
-#include "boundary/conforming.h"
 #include "linear/block_matrix.h"
 #include "particle/body.h"
 #include "stabilise/ghost_options.h"
@@ -24,7 +23,7 @@ struct GhostFacet : Facet {
 template <int dim>
 std::vector<GhostFacet> ghost_facets(const Space<dim>& space, const ActiveCells& active,
                                      const std::vector<Body<dim>>& bodies,
-                                     const std::vector<Conforming<dim>>& conditions);
+                                     const std::array<bool, 2 * dim>& held_edge);
 
 enum class GhostMatrix { mass, stiffness };
 

@@ -33,6 +33,7 @@ struct PointUpdate {
   bool velocity = false;           ///< v_p from the grid
   bool move = false;               ///< x_p += dt sum_i phi_i v_i
   bool strain = false;             ///< F, stress and domains
+  bool domains = true;             ///< with strain: domains follow the stretch
   std::span<const double> motion;  ///< n_functions x motion_stride, for velocity and move
   std::span<const double>
       strain_velocity;  ///< n_functions x dim, for strain; empty: the velocity in `motion`
@@ -45,6 +46,11 @@ struct PointUpdate {
 /// states are updated in place.
 template <int dim>
 void grid_to_points(const Space<dim>& space, Body<dim>& body, const PointUpdate& update);
+
+/// Domains l = l0 U_ii of a body with a finite-strain law (Charlton, Coombs and Augarde 2017); otherwise
+/// nothing: small-strain laws neglect the change of geometry.
+template <int dim>
+void follow_stretch(Body<dim>& body);
 
 /// sum_p m_p |v(x_p)|^2 / 2 of a field of `stride` numbers a function whose first dim are the velocity: the
 /// kinetic energy v^T M v / 2 with the consistent mass (without any stabilisation).

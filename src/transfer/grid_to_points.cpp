@@ -75,10 +75,10 @@ void update_points(const Basis basis, const Space<dim>& space, Particles<dim>& p
       const Kinematics<dim> kinematics{Mat<dim>::Identity() + dt * gradient, dt};
       points.deformation_gradient[k] = kinematics.dF * points.deformation_gradient[k];
       law.template stress<dim>(kinematics, group.old[k], group.old[k]);
-      // Small-strain laws neglect the change of geometry, so their domains stay as they are.
       if constexpr (Basis::uses_domains && Law::finite_strain)
-        points.half_length[k] = points.initial_half_length[k].cwiseProduct(
-            right_stretch(points.deformation_gradient[k]).diagonal());
+        if (update.domains)
+          points.half_length[k] = points.initial_half_length[k].cwiseProduct(
+              right_stretch<dim>(points.deformation_gradient[k]).diagonal());
     }
   }
 }
@@ -129,6 +129,15 @@ void grid_to_points(const Space<dim>& space, Body<dim>& body, const PointUpdate&
 }
 
 template <int dim>
+void follow_stretch(Body<dim>& body) {
+  Particles<dim>& points = body.points;
+  if (!body.finite_strain()) return;
+  for (std::size_t p = 0; p < points.half_length.size(); ++p)
+    points.half_length[p] =
+        points.initial_half_length[p].cwiseProduct(right_stretch<dim>(points.deformation_gradient[p]).diagonal());
+}
+
+template <int dim>
 double grid_kinetic_energy(const Space<dim>& space, const Body<dim>& body, std::span<const double> velocity,
                            int stride) {
   return std::visit(
@@ -166,6 +175,8 @@ BodyEnergy energy(const Body<dim>& body) {
 
 template void grid_to_points<2>(const Space<2>&, Body<2>&, const PointUpdate&);
 template void grid_to_points<3>(const Space<3>&, Body<3>&, const PointUpdate&);
+template void follow_stretch<2>(Body<2>&);
+template void follow_stretch<3>(Body<3>&);
 template double grid_kinetic_energy<2>(const Space<2>&, const Body<2>&, std::span<const double>, int);
 template double grid_kinetic_energy<3>(const Space<3>&, const Body<3>&, std::span<const double>, int);
 template BodyEnergy energy<2>(const Body<2>&);

@@ -142,7 +142,7 @@ void commit(const StoredStencils<dim>& stencils, Body<dim>& body, std::span<cons
               increment<dim>(stencils, p, u.data()) * points.deformation_gradient[p];
           if (Law::finite_strain && !points.half_length.empty())
             points.half_length[p] = points.initial_half_length[p].cwiseProduct(
-                right_stretch(points.deformation_gradient[p]).diagonal());
+                right_stretch<dim>(points.deformation_gradient[p]).diagonal());
           Vec<dim> displacement = Vec<dim>::Zero();
           for (std::size_t k = p * n; k < (p + 1) * n; ++k)
             displacement +=

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <csignal>
+#include <new>
 #include <random>
 #include <thread>
 
@@ -214,7 +217,8 @@ TEST(Checkpoint, AnyDamageIsFoundOrTheEarlierSetIsUsed) {
 }
 
 /// Writes like a run does, for ever: a row each step, every third step a state, every fifth a checkpoint.
-[[noreturn]] void run_until_killed(const fs::path& folder, std::int64_t start) {
+/// `steps` counts them for the process that kills.
+[[noreturn]] void run_until_killed(const fs::path& folder, std::int64_t start, std::atomic<int>& steps) {
   try {
     remove_unfinished(folder);
     History history = History::resume(folder / "history.csv", {"energy"}, start);
@@ -226,6 +230,7 @@ TEST(Checkpoint, AnyDamageIsFoundOrTheEarlierSetIsUsed) {
         series.add(time, write_vtu_pieces(folder / step_name("points", step),
                                           {{time, 0, 0}, {{"x", 1, std::vector<double>{time}}}}, {}));
       if (step % 5 == 0) sample(step).write(folder);
+      ++steps;
     }
   } catch (...) {
     ::_exit(3);
@@ -235,13 +240,26 @@ TEST(Checkpoint, AnyDamageIsFoundOrTheEarlierSetIsUsed) {
 TEST(Killed, AlwaysLeavesAReadableLastState) {
   const TemporaryFolder folder;
   std::mt19937 random(5);
+  void* shared =
+      ::mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  auto* steps = new (shared) std::atomic<int>(0);
   std::int64_t last = 0;
   for (int trial = 0; trial < 25; ++trial) {
+    *steps = 0;
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
-    if (child == 0) run_until_killed(folder.path(), last);
+    if (child == 0) run_until_killed(folder.path(), last, *steps);
+    // After some steps, however long the disk takes for them, and then anywhere within the next ones.
+    const int wanted = std::uniform_int_distribution<int>(0, 12)(random);
+    while (*steps < wanted) {
+      siginfo_t ended{};
+      ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT), 0);
+      ASSERT_EQ(ended.si_pid, 0) << "the writer ended by itself";
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
     std::this_thread::sleep_for(
-        std::chrono::microseconds(std::uniform_int_distribution<int>(100, 60000)(random)));
+        std::chrono::microseconds(std::uniform_int_distribution<int>(0, 30000)(random)));
     ASSERT_EQ(::kill(child, SIGKILL), 0);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
@@ -267,7 +285,8 @@ TEST(Killed, AlwaysLeavesAReadableLastState) {
     for (std::string line; std::getline(stream, line);) ++rows;
     EXPECT_EQ(rows, last) << "a row for each step up to the checkpoint, and none after it";
   }
-  EXPECT_GT(last, 0) << "no trial lived long enough to write a checkpoint";
+  EXPECT_GT(last, 0) << "no trial wrote a checkpoint";
+  ::munmap(shared, sizeof(std::atomic<int>));
 }
 
 }  // namespace

@@ -1,0 +1,53 @@
+// Explicit dynamics.
+#pragma once
+#include "analysis/model.h"
+#include "analysis/options.h"
+#include "analysis/record.h"
+#include "linear/mass_solver.h"
+#include "stabilise/ghost.h"
+
+namespace wisp {
+
+/// One explicit stage: owns the order of the operations of a step, which are also the names of its timers.
+template <int dim>
+class Explicit {
+ public:
+  Explicit(Model<dim>& model, const ExplicitOptions& options);
+
+  /// Length of the next step (s): given, or by the CFL number from the present wave and point speeds; never
+  /// beyond `end`. Errors (RunError): CFL with no wave speed.
+  double time_step(double end) const;
+
+  /// One step of length dt. With `record`, energies at the time level of the forces.
+  /// Errors (RunError): mass solve failed, velocities not finite, points left the grid.
+  void step(double dt, EnergyRecord* record = nullptr);
+
+  /// Start-of-step velocity (n_functions x dim) and, for the consistent mass, the matrix with Ghost of the
+  /// last step.
+  std::span<const double> start_velocity() const { return velocity_; }
+  const BlockMatrix& mass() const { return mass_; }
+  /// Warm starts that a resumed run needs for the same bits.
+  std::vector<double>& warm_acceleration() { return acceleration_; }
+  std::vector<double>& warm_velocity() { return velocity_; }
+
+ private:
+  void gather(Gather what);
+  void assemble_mass();
+  void solve_velocity(std::vector<double>& velocity);
+  void solve_acceleration(double dt);
+  void set_motion(double dt);
+  void check_finite() const;
+  void record_energy(EnergyRecord& record) const;
+  void add_work(double dt);
+  void points(const PointUpdate& update);
+
+  Model<dim>& model_;
+  ExplicitOptions options_;
+  bool consistent_;
+  // Arrays over functions; see explicit_transfer.h for the records.
+  std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_;
+  BlockMatrix mass_{1};
+  MassSolver solver_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,215 @@
+#include "analysis/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "parallel/migrate.h"
+#include "particle/order.h"
+#include "particle/sampling.h"
+
+namespace wisp {
+
+namespace {
+
+/// Points out of order up to this share are left where they are: sorting costs more than they do.
+constexpr double tolerated_disorder = 0.02;
+
+template <int dim>
+MultiIndex<dim> cell_of(const StructuredGrid<dim>& grid, const Vec<dim>& x) {
+  MultiIndex<dim> cell;
+  for (int d = 0; d < dim; ++d) cell[d] = grid.locate_inside(d, x[d]);
+  return cell;
+}
+
+/// The cells of every size()-th point, so that all ranks together list each point of a replicated list once.
+template <int dim>
+std::vector<MultiIndex<dim>> share_of_cells(const StructuredGrid<dim>& grid,
+                                            const std::vector<Body<dim>>& bodies) {
+  std::vector<MultiIndex<dim>> cells;
+  for (const auto& body : bodies)
+    for (std::size_t p = static_cast<std::size_t>(Session::rank()); p < body.points.position.size();
+         p += static_cast<std::size_t>(Session::size()))
+      cells.push_back(cell_of(grid, body.points.position[p]));
+  return cells;
+}
+
+}  // namespace
+
+template <int dim>
+Model<dim>::Model(const ModelOptions& given) : options(given) {
+  const StructuredGrid<dim> grid(options.grid);
+  const bool domains = std::holds_alternative<GimpOptions>(options.basis);
+  std::int64_t id = 0;
+  for (const auto& body : options.bodies) {
+    bodies.push_back(sample<dim>(body, grid, domains, id, options.folder));
+    id += bodies.back().points.size();
+  }
+  const auto cells = share_of_cells(grid, bodies);
+  space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), domains);
+  keep_owned();
+  for (const auto& o : options.boundaries) conditions.emplace_back(o, *space);
+  constraints = Constraints<dim>(conditions, space->n_functions());
+  for (const auto& o : options.loads) loads.emplace_back(o, bodies);
+  for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
+  reactions.assign(conditions.size(), Vec<dim>::Zero());
+  settle();
+}
+
+template <int dim>
+void Model<dim>::keep_owned() {
+  for (auto& body : bodies) {
+    locate(body.points, space->grid(), space->window());
+    std::vector<char> gone(body.points.cell.size());
+    for (std::size_t p = 0; p < gone.size(); ++p) gone[p] = body.points.cell[p] < 0;
+    remove(body, gone);
+    reorder(body, space->window().n_cells());
+  }
+}
+
+template <int dim>
+Vec<dim> Model<dim>::gravity(double t) const {
+  if (!options.gravity) return Vec<dim>::Zero();
+  return options.gravity->factor(t) * Eigen::Map<const Vec<dim>>(options.gravity->acceleration.data());
+}
+
+template <int dim>
+void Model<dim>::add_loads(double t, std::span<double> force) const {
+  for (const auto& load : loads) load.add_force(*space, bodies, t, force);
+  for (const auto& traction : tractions) traction.add_force(*space, t, force);
+}
+
+template <int dim>
+std::int64_t Model<dim>::n_points() const {
+  std::int64_t n = 0;
+  for (const auto& body : bodies) n += body.points.size();
+  return Session::sum(n);
+}
+
+template <int dim>
+void Model<dim>::settle() {
+  Eigen::Matrix<int, 2, 1> found(0, 0);
+  std::vector<Location> locations;
+  for (auto& body : bodies) {
+    locations.push_back(locate(body.points, space->grid(), space->window()));
+    found += Eigen::Matrix<int, 2, 1>(locations.back().outside, locations.back().elsewhere);
+  }
+  if (Session::size() > 1) found = Session::sum(found);
+  if (found[0] > 0) remove_outside(static_cast<std::size_t>(found[0]));
+  if (found[1] > 0) migrate();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const bool moved = found[0] > 0 || found[1] > 0;
+    if (moved || locations[b].disorder > tolerated_disorder * bodies[b].points.size())
+      reorder(bodies[b], space->window().n_cells());
+  }
+  if (space->domains()) choose_width();
+}
+
+template <int dim>
+void Model<dim>::remove_outside(std::size_t outside) {
+  std::string examples;
+  int shown = 0;
+  for (auto& body : bodies) {
+    std::vector<char> gone(body.points.cell.size());
+    for (std::size_t p = 0; p < gone.size(); ++p) {
+      gone[p] = body.points.cell[p] == -1;
+      if (!gone[p] || shown++ >= 5) continue;
+      examples +=
+          fmt::format("{}{} of '{}' at (", examples.empty() ? "" : ", ", body.points.id[p], body.name);
+      for (int d = 0; d < dim; ++d)
+        examples += fmt::format("{}{:.6g}", d ? ", " : "", body.points.position[p][d]);
+      examples += ")";
+    }
+    if (options.grid.leaving == Leaving::remove) remove(body, gone);
+  }
+  removed += static_cast<std::int64_t>(outside);
+  if (options.grid.leaving == Leaving::remove) return;
+  std::string error;
+  if (!examples.empty())
+    error = fmt::format(
+        "step {} at t = {:.6g} s: {} point{} left the grid: {}; enlarge the grid, hold its edge by a "
+        "boundary, "
+        "or set leaving = \"remove\" in [grid]",
+        step, time, outside, outside == 1 ? "" : "s", examples);
+  Session::raise_together(error);
+}
+
+template <int dim>
+void Model<dim>::migrate() {
+  for (auto& body : bodies) {
+    std::vector<int> destination;
+    destination.reserve(body.points.position.size());
+    for (const auto& x : body.points.position)
+      destination.push_back(space->partition().owner_of_cell(cell_of(space->grid(), x)));
+    const Migration migration(destination);
+    body.for_each_field([&](std::string_view, auto& field) {
+      // A rank without points still has to know which fields the others use.
+      const bool used = Session::any_of(!field.empty());
+      if (used) migration.move(field);
+    });
+    locate(body.points, space->grid(), space->window());
+  }
+}
+
+template <int dim>
+void Model<dim>::choose_width() {
+  Vec<dim> longest = Vec<dim>::Zero();
+  for (const auto& body : bodies)
+    for (const auto& l : body.points.half_length) longest = longest.cwiseMax(l);
+  const StructuredGrid<dim>& grid = space->grid();
+  constexpr double rounding = 1.0 + 1e-12;
+  bool narrow = true, wide = true;
+  for (int d = 0; d < dim; ++d) {
+    double h = grid.spacing(d, 0);
+    for (int c = 1; c < grid.cells(d); ++c) h = std::min(h, grid.spacing(d, c));
+    narrow &= 2.0 * longest[d] <= h * rounding;
+    wide &= 2.0 * longest[d] <= 3.0 * h * rounding;
+  }
+  if (std::visit([](const auto& basis) { return basis.width; }, space->basis()) != (narrow ? 3 : 5))
+    space->set_width(narrow ? 3 : 5);
+  if (wide) return;
+  // The shortest cell is too short for the longest domain; but they may be far apart.
+  for (const auto& body : bodies)
+    for (std::size_t p = 0; p < body.points.position.size(); ++p)
+      for (int d = 0; d < dim; ++d) {
+        const double x = body.points.position[p][d], l = body.points.half_length[p][d];
+        const int c = grid.locate(d, x), first = grid.locate(d, x - l), last = grid.locate(d, x + l);
+        if (!(std::isfinite(l)) || last - first > 3 || c - first > 2 || last - c > 2)
+          run_error(
+              "step {} at t = {:.6g} s: the domain of point {} of '{}' has grown to {:.4g} m in direction {} "
+              "and covers more "
+              "than four cells; use larger cells, smaller domains (more points), or linear functions",
+              step, time, body.points.id[p], body.name, 2 * l, "xyz"[d]);
+      }
+}
+
+template <int dim>
+void Model<dim>::rebalance() {
+  if (Session::size() == 1) return;
+  std::int64_t n = 0;
+  for (const auto& body : bodies) n += body.points.size();
+  if (imbalance(n) <= 1.1) return;
+  const StructuredGrid<dim> grid = space->grid();
+  std::vector<MultiIndex<dim>> cells;
+  for (const auto& body : bodies)
+    for (const auto& x : body.points.position) cells.push_back(cell_of(grid, x));
+  const BoxPartition<dim> partition(grid.cells(), cells);
+  if (partition == space->partition()) return;
+  make_space(partition);
+  migrate();
+  settle();
+}
+
+template <int dim>
+void Model<dim>::make_space(const BoxPartition<dim>& partition) {
+  const StructuredGrid<dim> grid = space->grid();
+  space = std::make_unique<Space<dim>>(grid, partition, space->domains());
+  conditions.clear();
+  for (const auto& o : options.boundaries) conditions.emplace_back(o, *space);
+  constraints = Constraints<dim>(conditions, space->n_functions());
+}
+
+template struct Model<2>;
+template struct Model<3>;
+
+}  // namespace wisp

@@ -1,0 +1,76 @@
+// What an analysis works on: the discretisation, the bodies, what acts on them, and where the run stands.
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "basis/space.h"
+#include "boundary/conforming.h"
+#include "boundary/loads.h"
+#include "core/timers.h"
+#include "linear/solver.h"
+#include "particle/body.h"
+#include "particle/body_options.h"
+#include "stabilise/ghost_options.h"
+
+namespace wisp {
+
+/// The parts of a case that do not depend on its stages.
+struct ModelOptions {
+  StructuredGridOptions grid;
+  AnyBasisOptions basis;
+  std::vector<BodyOptions> bodies;
+  std::vector<ConformingOptions> boundaries;
+  std::vector<PointLoadOptions> loads;
+  std::vector<TractionOptions> tractions;
+  std::optional<GravityOptions> gravity;
+  std::optional<GhostOptions> stabilisation;
+  SolverOptions solver;
+  std::filesystem::path folder;  ///< where relative file names start
+};
+
+/// A run on this rank. Plain members: analyses change them, output reads them.
+template <int dim>
+struct Model {
+  /// Samples the bodies, splits the grid by their points and keeps this rank's. Collective. Errors:
+  /// InputError.
+  explicit Model(const ModelOptions& options);
+
+  ModelOptions options;
+  std::unique_ptr<Space<dim>> space;
+  std::vector<Body<dim>> bodies;
+  std::vector<Conforming<dim>> conditions;
+  Constraints<dim> constraints;
+  std::vector<PointLoad<dim>> loads;
+  std::vector<Traction<dim>> tractions;
+
+  double time = 0.0;                ///< s
+  std::int64_t step = 0;            ///< finished steps, over all stages
+  std::int64_t removed = 0;         ///< points removed because they left the grid, all ranks
+  double external_work = 0.0;       ///< J, of body forces, loads and prescribed motion, all ranks
+  std::vector<Vec<dim>> reactions;  ///< N, one a condition, all ranks, of the last step
+  Timers timers;
+
+  Vec<dim> gravity(double t) const;
+  bool has_loads() const { return !loads.empty() || !tractions.empty(); }
+  /// Adds point loads and tractions at time t to `force` (n_functions x dim), this rank's share.
+  void add_loads(double t, std::span<double> force) const;
+  std::int64_t n_points() const;  ///< all ranks
+
+  /// Before a step: finds the points' cells, moves points to the ranks that own them, puts them in cell order
+  /// and chooses the stencils' width. Collective. Errors (RunError): points left the grid and the case says
+  /// stop; domains too large.
+  void settle();
+  /// Splits the grid anew when the imbalance of points passes 10 %. Collective; between steps only.
+  void rebalance();
+
+ private:
+  void make_space(const BoxPartition<dim>& partition);
+  void keep_owned();
+  void remove_outside(std::size_t outside);
+  void migrate();
+  void choose_width();
+};
+
+}  // namespace wisp
