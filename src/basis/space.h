@@ -6,8 +6,9 @@
 
 namespace wisp {
 
-/// Grid, partition and basis of a run on one rank. Functions are the nodes of the rank's window, numbered densely; arrays
-/// over functions have `n_functions()` entries, ghosts and phantoms included. Not copyable: the basis points to the grid.
+/// Grid, partition and basis of a run on one rank. Functions are the nodes of the rank's window, numbered
+/// densely; arrays over functions have `n_functions()` entries, ghosts and phantoms included. Not copyable:
+/// the basis points to the grid.
 template <int dim>
 class Space {
  public:
@@ -34,7 +35,8 @@ class Space {
   /// Whether points have domains (GIMP).
   bool domains() const { return domains_; }
 
-  /// Functions a direction that the stencils of a basis with domains need: 3, or 5 for domains over a cell's side.
+  /// Functions a direction that the stencils of a basis with domains need: 3, or 5 for domains over a cell's
+  /// side.
   void set_width(int width) {
     const NodeNumbering<dim> numbering(window_);
     if (width == 3)

@@ -1,17 +1,21 @@
 #include "geometry/outline.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
 // Boost 1.74 includes one of its own deprecated headers and would say so in each build.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
-
-#include <algorithm>
+// After inlining g++ 12 takes a number of Boost's for uninitialised, system header or not.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <boost/geometry/algorithms/intersection.hpp>
 #include <boost/geometry/algorithms/is_valid.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/geometries/segment.hpp>
-#include <cmath>
-
-#include "core/error.h"
+#pragma GCC diagnostic pop
 
 namespace wisp {
 namespace {
@@ -58,11 +62,18 @@ BoostPolygon boost_polygon(const std::vector<Ring>& rings) {
   return polygon;
 }
 
-/// The text " near (x, y), edges from vertex i of ... and from vertex j of ..." of the first pair of edges
-/// that meet where they should not; empty if none is found.
+std::string edge_text(const BoostSegment& s) {
+  return fmt::format("({:.6g}, {:.6g})-({:.6g}, {:.6g})", s.first.x(), s.first.y(), s.second.x(),
+                     s.second.y());
+}
+
+/// The text " near (x, y), where edge ... meets edge ..." of the first pair of edges that meet where they
+/// should not; empty if none is found. Edges are named by coordinates, because orientation has renumbered the
+/// vertices.
 std::string crossing(const std::vector<Ring>& rings, const std::vector<std::string>& labels) {
   struct Edge {
-    std::size_t ring, i;
+    std::size_t ring;
+    std::size_t i;
     BoostSegment segment;
   };
   std::vector<Edge> edges;
@@ -78,11 +89,9 @@ std::string crossing(const std::vector<Ring>& rings, const std::vector<std::stri
       std::vector<BoostPoint> points;
       bg::intersection(edges[a].segment, edges[b].segment, points);
       if (points.empty()) continue;
-      return fmt::format(
-          " near ({:.6g}, {:.6g}), where the edge after vertex {} of the {} meets the edge after vertex {} "
-          "of the {}",
-          points[0].x(), points[0].y(), edges[a].i + 1, labels[edges[a].ring], edges[b].i + 1,
-          labels[edges[b].ring]);
+      return fmt::format(" near ({:.6g}, {:.6g}), where edge {} of the {} meets edge {} of the {}",
+                         points[0].x(), points[0].y(), edge_text(edges[a].segment), labels[edges[a].ring],
+                         edge_text(edges[b].segment), labels[edges[b].ring]);
     }
   }
   return "";
@@ -103,6 +112,12 @@ std::string reason(bg::validity_failure_type failure, const std::vector<Ring>& r
     case bg::failure_disconnected_interior:
       return "falls into several parts, because holes touch each other or the outer ring at more than one "
              "point";
+    case bg::failure_wrong_orientation: {
+      // The rings are oriented by their signed area before, so it is zero: a figure of eight, or all in one
+      // line.
+      const std::string where = crossing(rings, labels);
+      return where.empty() ? "has no area" : "crosses or touches itself" + where;
+    }
     case bg::failure_wrong_topological_dimension:
       return "has no area";
     default:

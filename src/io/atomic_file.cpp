@@ -45,7 +45,12 @@ void flush_folder(const fs::path& folder) {
 }
 
 void rename_into_place(const fs::path& temporary, const fs::path& path) {
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) cannot_write(path);
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int reason = errno;
+    ::unlink(temporary.c_str());
+    errno = reason;
+    cannot_write(path);
+  }
   flush_folder(folder_of(path));
 }
 

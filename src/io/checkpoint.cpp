@@ -221,6 +221,8 @@ void Checkpoint::write_file(const fs::path& path, int rank, int ranks) const {
     }
     file.close("cannot flush the file");
   } catch (const hdf5::Failure& failure) {
+    std::error_code gone;
+    fs::remove(temporary, gone);  // a full disk needs the room
     run_error("cannot write the checkpoint {}: HDF5 stopped at \"{}\"", path.string(), failure.what());
   }
   put_seal(temporary);

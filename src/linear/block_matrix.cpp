@@ -75,7 +75,8 @@ void BlockMatrix::locate(std::span<const int> functions) {
   // Insertion sort: lists are short and nearly always sorted already.
   for (int i = 0; i < n; ++i) {
     int j = i;
-    for (; j > 0 && functions[at(order_[at(j - 1)])] > functions[at(i)]; --j) order_[at(j)] = order_[at(j - 1)];
+    for (; j > 0 && functions[at(order_[at(j - 1)])] > functions[at(i)]; --j)
+      order_[at(j)] = order_[at(j - 1)];
     order_[at(j)] = i;
   }
 }
@@ -95,7 +96,8 @@ void BlockMatrix::add_blocks(std::span<const int> functions, const double* dense
       const int g = functions[at(j)];
       while (k < end && columns[k] < g) ++k;
       if (k == end || columns[k] != g)
-        run_error("a matrix has no entry for functions {} and {}: its pattern lacks this cell or facet", f, g);
+        run_error("a matrix has no entry for functions {} and {}: its pattern lacks this cell or facet", f,
+                  g);
       double* a = values_.data() + at(k) * b * b;
       if constexpr (scalar) {
         const double m = dense[at(i) * at(n) + at(j)];
@@ -129,7 +131,8 @@ void BlockMatrix::add_matrix(double factor, const BlockMatrix& other) {
     for (std::size_t k = 0; k < values_.size(); ++k) values_[k] += factor * other.values_[k];
     return;
   }
-  if (other.block_ != 1) run_error("a matrix of blocks of {} cannot be added to one of {}", other.block_, block_);
+  if (other.block_ != 1)
+    run_error("a matrix of blocks of {} cannot be added to one of {}", other.block_, block_);
   const auto b = at(block_);
   for (std::size_t k = 0; k < other.values_.size(); ++k)
     for (std::size_t c = 0; c < b; ++c) values_[k * b * b + c * b + c] += factor * other.values_[k];
@@ -144,11 +147,16 @@ void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const
 void BlockMatrix::multiply_columns(std::span<const double> x, std::span<double> y, int columns) const {
   if (block_ != 1) run_error("only a scalar matrix multiplies columns; this one has blocks of {}", block_);
   switch (columns) {
-    case 1: return multiply_columns_of<1>(*pattern_, values_.data(), x.data(), y.data());
-    case 2: return multiply_columns_of<2>(*pattern_, values_.data(), x.data(), y.data());
-    case 3: return multiply_columns_of<3>(*pattern_, values_.data(), x.data(), y.data());
-    case 4: return multiply_columns_of<4>(*pattern_, values_.data(), x.data(), y.data());
-    default: run_error("a scalar matrix multiplies 1 to 4 columns at once, not {}", columns);
+    case 1:
+      return multiply_columns_of<1>(*pattern_, values_.data(), x.data(), y.data());
+    case 2:
+      return multiply_columns_of<2>(*pattern_, values_.data(), x.data(), y.data());
+    case 3:
+      return multiply_columns_of<3>(*pattern_, values_.data(), x.data(), y.data());
+    case 4:
+      return multiply_columns_of<4>(*pattern_, values_.data(), x.data(), y.data());
+    default:
+      run_error("a scalar matrix multiplies 1 to 4 columns at once, not {}", columns);
   }
 }
 

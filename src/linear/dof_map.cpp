@@ -7,23 +7,30 @@
 
 namespace wisp {
 
-void DofMap::number_owned(std::span<const char> owned, std::span<const char> active, std::span<const char> fixed,
-                          FixedUnknowns mode) {
-  const auto m = static_cast<std::size_t>(components_);
-  if (components_ < 1 || components_ > 3) input_error("unknowns have 1 to 3 components, not {}", components_);
-  if (active.size() != owned.size() || (!fixed.empty() && fixed.size() != m * owned.size()))
-    run_error("the flags of {} functions have {} active and {} fixed entries", owned.size(), active.size(),
+DofMap::DofMap(const Halo& halo, int components, std::span<const char> active, std::span<const char> fixed,
+               FixedUnknowns mode)
+    : components_(components), comm_(halo.comm()), serial_(halo.serial()), mode_(mode) {
+  if (components < 1 || components > 3) input_error("unknowns have 1 to 3 components, not {}", components);
+  const auto n = static_cast<std::size_t>(halo.n_local());
+  const auto m = static_cast<std::size_t>(components);
+  if (active.size() != n || (!fixed.empty() && fixed.size() != m * n))
+    run_error("the flags of {} functions have {} active and {} fixed entries", n, active.size(),
               fixed.size());
-  mode_ = mode;
-  numbers_.assign(owned.size() * m, -1);
-  free_.assign(owned.size() * m, 0);
-  for (std::size_t f = 0; f < owned.size(); ++f)
-    for (std::size_t c = 0; c < m; ++c) {
-      const std::size_t i = f * m + c;
-      if (!active[f]) continue;
+  numbers_.assign(n * m, -1);
+  free_.assign(n * m, 0);
+  for (std::size_t f = 0; f < n; ++f) {
+    if (!active[f]) continue;
+    const bool owned = halo.owns(static_cast<int>(f));
+    for (std::size_t i = f * m; i < (f + 1) * m; ++i) {
       free_[i] = fixed.empty() || !fixed[i];
-      if (owned[f] && (free_[i] || mode == FixedUnknowns::unit_rows)) owned_.push_back(static_cast<int>(i));
+      if (owned && (free_[i] || mode == FixedUnknowns::unit_rows)) owned_.push_back(static_cast<int>(i));
     }
+  }
+  number_globally();
+  halo.update(numbers_.data(), components);
+}
+
+void DofMap::number_globally() {
   std::int64_t first = 0;
   std::int64_t total = static_cast<std::int64_t>(owned_.size());
   if (!serial_) {

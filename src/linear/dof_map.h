@@ -2,41 +2,14 @@
 #pragma once
 #include <mpi.h>
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "parallel/halo.h"
+
 namespace wisp {
-
-/// What the numbering needs to know of the grid functions of a rank: `Halo` of the room `parallel` is one.
-template <class H>
-concept GhostExchange = requires(const H& halo, int f, double* values, int* numbers) {
-  { halo.n_local() } -> std::convertible_to<int>;
-  { halo.owns(f) } -> std::convertible_to<bool>;
-  { halo.serial() } -> std::convertible_to<bool>;
-  { halo.comm() } -> std::convertible_to<MPI_Comm>;
-  halo.add(values, 1);     // ghosts are added to their owners
-  halo.update(values, 1);  // owners are copied to their ghosts
-  halo.update(numbers, 1);
-};
-
-/// The functions of a problem on one rank: each is owned and none is a ghost.
-class SerialExchange {
- public:
-  explicit SerialExchange(int n_local) : n_local_(n_local) {}
-  int n_local() const { return n_local_; }
-  bool owns(int) const { return true; }
-  bool serial() const { return true; }
-  MPI_Comm comm() const { return MPI_COMM_SELF; }
-  void add(double*, int) const {}
-  void update(double*, int) const {}
-  void update(int*, int) const {}
-
- private:
-  int n_local_;
-};
 
 /// What becomes of unknowns with a prescribed value.
 enum class FixedUnknowns {
@@ -44,24 +17,18 @@ enum class FixedUnknowns {
   unit_rows,  ///< they keep a number and a row that says x = 0: all blocks stay whole, which multigrid needs
 };
 
-/// Numbers of the unknowns (f, c), component c of grid function f. Contiguous over all ranks, rank by rank, in the order of
-/// the local functions; -1 where the function is inactive or the unknown removed. Ghosts carry the number of their owner.
-/// Local dense arrays hold unknown (f, c) at f * components + c and cover all local functions.
+/// Numbers of the unknowns (f, c), component c of grid function f. Contiguous over all ranks, rank by rank,
+/// in the order of the local functions; -1 where the function is inactive or the unknown removed. Ghosts
+/// carry the number of their owner. Local dense arrays hold unknown (f, c) at f * components + c and cover
+/// all local functions.
 class DofMap {
  public:
   DofMap() = default;
 
-  /// `active`: n_local flags; `fixed`: n_local*components flags, or empty if none is. Both must agree on owners and
-  /// ghosts. Collective.
-  template <GhostExchange H>
-  DofMap(const H& halo, int components, std::span<const char> active, std::span<const char> fixed = {},
-         FixedUnknowns mode = FixedUnknowns::removed)
-      : components_(components), comm_(halo.comm()), serial_(halo.serial()) {
-    std::vector<char> owned(static_cast<std::size_t>(halo.n_local()));
-    for (std::size_t f = 0; f < owned.size(); ++f) owned[f] = halo.owns(static_cast<int>(f));
-    number_owned(owned, active, fixed, mode);
-    halo.update(numbers_.data(), components_);
-  }
+  /// `active`: n_local flags; `fixed`: n_local*components flags, or empty if none is. Both must agree on
+  /// owners and ghosts. Collective.
+  DofMap(const Halo& halo, int components, std::span<const char> active, std::span<const char> fixed = {},
+         FixedUnknowns mode = FixedUnknowns::removed);
 
   int components() const { return components_; }
   int n_local() const { return components_ == 0 ? 0 : static_cast<int>(numbers_.size()) / components_; }
@@ -88,20 +55,20 @@ class DofMap {
            n_global_ == other.n_global_ && first_ == other.first_;
   }
 
-  /// Local dense array (n_local x components) to this rank's entries of a vector (n_owned); zero at prescribed unknowns.
+  /// Local dense array (n_local x components) to this rank's entries of a vector (n_owned); zero at
+  /// prescribed unknowns.
   void gather(std::span<const double> local, std::span<double> owned) const;
-  /// This rank's entries of a vector to the owned part of a local dense array; zero where there is no free unknown.
+  /// This rank's entries of a vector to the owned part of a local dense array; zero where there is no free
+  /// unknown.
   void scatter_owned(std::span<const double> owned, std::span<double> local) const;
   /// The same, and then the ghosts. Collective.
-  template <GhostExchange H>
-  void scatter(std::span<const double> owned, std::span<double> local, const H& halo) const {
+  void scatter(std::span<const double> owned, std::span<double> local, const Halo& halo) const {
     scatter_owned(owned, local);
     halo.update(local.data(), components_);
   }
 
  private:
-  void number_owned(std::span<const char> owned, std::span<const char> active, std::span<const char> fixed,
-                    FixedUnknowns mode);
+  void number_globally();
 
   int components_ = 0;
   int first_ = 0;

@@ -1,20 +1,12 @@
-// PETSc's objects as values that free themselves, and its error codes as exceptions.
+// PETSc's objects as values that free themselves.
 #pragma once
 #include <petscksp.h>
 
 #include <utility>
 
-#include "core/error.h"
+#include "parallel/petsc_check.h"
 
 namespace wisp {
-
-/// Turns a PETSc error code into a RunError; `action` says what was tried.
-inline void check_petsc(PetscErrorCode code, const char* action) {
-  if (code == 0) return;
-  const char* text = nullptr;
-  PetscErrorMessage(code, &text, nullptr);
-  run_error("PETSc failed to {} (code {}: {})", action, static_cast<int>(code), text ? text : "no message");
-}
 
 /// Silences PETSc's own printing of errors while it lives: errors then only come back as codes.
 class QuietPetsc {

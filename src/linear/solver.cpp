@@ -9,23 +9,25 @@ namespace {
 /// A vector over the caller's numbers.
 OwnedVec wrap(MPI_Comm comm, std::span<const double> values, PetscInt n_global) {
   OwnedVec v;
-  check_petsc(VecCreateMPIWithArray(comm, 1, static_cast<PetscInt>(values.size()), n_global, values.data(), v.renew()),
-              "create a vector");
+  petsc(VecCreateMPIWithArray(comm, 1, static_cast<PetscInt>(values.size()), n_global, values.data(),
+                              v.renew()));
   return v;
 }
 
-/// Sparse direct solvers win below these sizes (measured on 2D and 3D elasticity; fill grows much faster in 3D).
+/// Sparse direct solvers win below these sizes (measured on 2D and 3D elasticity; fill grows much faster in
+/// 3D).
 int largest_direct(int dim) { return dim == 2 ? 50000 : 8000; }
 
-/// Options in force while a solver is set up: a database of its own, so that nothing leaks into another solver.
+/// Options in force while a solver is set up: a database of its own, so that nothing leaks into another
+/// solver.
 class OptionScope {
  public:
   explicit OptionScope(const std::string& text) : text_(text) {
     if (text_.empty()) return;
-    check_petsc(PetscOptionsCreate(&options_), "create options");
+    petsc(PetscOptionsCreate(&options_));
     if (PetscOptionsInsertString(options_, text_.c_str()) != 0)
       input_error("petsc_options cannot be read: \"{}\"", text_);
-    check_petsc(PetscOptionsPush(options_), "use options");
+    petsc(PetscOptionsPush(options_));
   }
   ~OptionScope() {
     if (!options_) return;
@@ -66,40 +68,39 @@ void LinearSolver::reset() {
 }
 
 void LinearSolver::choose_direct(KSP ksp) {
-  // MUMPS on one rank as on many: it pivots (also in L D L^T, so a symmetric matrix may turn indefinite), it reports a zero
-  // pivot instead of dividing by it, and on 4000 to 40000 unknowns it was as fast as PETSc's own factorisation, which
-  // does not pivot, and about twice as fast as UMFPACK.
+  // MUMPS on one rank as on many: it pivots (also in L D L^T, so a symmetric matrix may turn indefinite), it
+  // reports a zero pivot instead of dividing by it, and on 4000 to 40000 unknowns it was as fast as PETSc's
+  // own factorisation, which does not pivot, and about twice as fast as UMFPACK.
   PC pc = nullptr;
-  check_petsc(KSPSetType(ksp, KSPPREONLY), "choose a solver");
-  check_petsc(KSPGetPC(ksp, &pc), "choose a solver");
-  check_petsc(PCSetType(pc, traits_.symmetric ? PCCHOLESKY : PCLU), "choose a factorisation");
-  check_petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS), "choose a factorisation");
+  petsc(KSPSetType(ksp, KSPPREONLY));
+  petsc(KSPGetPC(ksp, &pc));
+  petsc(PCSetType(pc, traits_.symmetric ? PCCHOLESKY : PCLU));
+  petsc(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
 }
 
 void LinearSolver::choose_iterative(KSP ksp, ::Mat mat) {
   PC pc = nullptr;
-  check_petsc(KSPSetType(ksp, traits_.symmetric ? KSPCG : KSPGMRES), "choose a solver");
-  check_petsc(KSPGetPC(ksp, &pc), "choose a solver");
-  check_petsc(PCSetType(pc, PCGAMG), "choose a preconditioner");
+  petsc(KSPSetType(ksp, traits_.symmetric ? KSPCG : KSPGMRES));
+  petsc(KSPGetPC(ksp, &pc));
+  petsc(PCSetType(pc, PCGAMG));
   PetscInt block = 1;
-  check_petsc(MatGetBlockSize(mat, &block), "read a block size");
+  petsc(MatGetBlockSize(mat, &block));
   if (block == traits_.dim && !traits_.coordinates.empty()) {
     PetscInt rows = 0;
-    check_petsc(MatGetLocalSize(mat, &rows, nullptr), "read a matrix's size");
+    petsc(MatGetLocalSize(mat, &rows, nullptr));
     if (static_cast<std::size_t>(rows) != traits_.coordinates.size())
       run_error("multigrid was given {} coordinates for {} unknowns", traits_.coordinates.size(), rows);
     OwnedVec coordinates;
-    check_petsc(VecCreateMPI(PetscObjectComm(reinterpret_cast<PetscObject>(mat)), rows, PETSC_DETERMINE,
-                             coordinates.renew()),
-                "create a vector");
-    check_petsc(VecSetBlockSize(coordinates.get(), block), "set a block size");
+    petsc(VecCreateMPI(PetscObjectComm(reinterpret_cast<PetscObject>(mat)), rows, PETSC_DETERMINE,
+                       coordinates.renew()));
+    petsc(VecSetBlockSize(coordinates.get(), block));
     double* values = nullptr;
-    check_petsc(VecGetArray(coordinates.get(), &values), "fill a vector");
+    petsc(VecGetArray(coordinates.get(), &values));
     std::copy(traits_.coordinates.begin(), traits_.coordinates.end(), values);
-    check_petsc(VecRestoreArray(coordinates.get(), &values), "fill a vector");
+    petsc(VecRestoreArray(coordinates.get(), &values));
     MatNullSpace modes = nullptr;
-    check_petsc(MatNullSpaceCreateRigidBody(coordinates.get(), &modes), "make rigid-body modes");
-    check_petsc(MatSetNearNullSpace(mat, modes), "set rigid-body modes");
+    petsc(MatNullSpaceCreateRigidBody(coordinates.get(), &modes));
+    petsc(MatSetNearNullSpace(mat, modes));
     MatNullSpaceDestroy(&modes);
   }
 }
@@ -107,23 +108,23 @@ void LinearSolver::choose_iterative(KSP ksp, ::Mat mat) {
 void LinearSolver::set_up(const SystemMatrix& matrix) {
   ::Mat mat = matrix.mat();
   PetscInt n = 0;
-  check_petsc(MatGetSize(mat, &n, nullptr), "read a matrix's size");
+  petsc(MatGetSize(mat, &n, nullptr));
   MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(mat));
   direct_ = options_.solver == SolverKind::direct ||
             (options_.solver == SolverKind::automatic && n <= largest_direct(traits_.dim));
   const OptionScope scope(options_.petsc_options);
-  check_petsc(KSPCreate(comm, ksp_.renew()), "create a solver");
+  petsc(KSPCreate(comm, ksp_.renew()));
   KSP ksp = ksp_.get();
-  check_petsc(KSPSetOptionsPrefix(ksp, "wisp_"), "name a solver");
-  check_petsc(KSPSetTolerances(ksp, options_.tolerance, 0.0, 1e10, options_.max_iterations), "set tolerances");
-  if (traits_.symmetric && !direct_) check_petsc(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "set a norm");
+  petsc(KSPSetOptionsPrefix(ksp, "wisp_"));
+  petsc(KSPSetTolerances(ksp, options_.tolerance, 0.0, 1e10, options_.max_iterations));
+  if (traits_.symmetric && !direct_) petsc(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
   direct_ ? choose_direct(ksp) : choose_iterative(ksp, mat);
-  check_petsc(KSPSetInitialGuessNonzero(ksp, direct_ ? PETSC_FALSE : PETSC_TRUE), "set the initial guess");
+  petsc(KSPSetInitialGuessNonzero(ksp, direct_ ? PETSC_FALSE : PETSC_TRUE));
   // First the program's options with the prefix wisp_, then the case's own without a prefix.
-  check_petsc(KSPSetFromOptions(ksp), "read a solver's options");
+  petsc(KSPSetFromOptions(ksp));
   if (!options_.petsc_options.empty()) {
-    check_petsc(KSPSetOptionsPrefix(ksp, nullptr), "name a solver");
-    check_petsc(KSPSetFromOptions(ksp), "read petsc_options");
+    petsc(KSPSetOptionsPrefix(ksp, nullptr));
+    petsc(KSPSetFromOptions(ksp));
   }
   structure_ = matrix.structure();
 }
@@ -131,19 +132,20 @@ void LinearSolver::set_up(const SystemMatrix& matrix) {
 double LinearSolver::residual(::Mat mat, ::Vec b, ::Vec x) const {
   OwnedVec r;
   double norm_b = 0.0, norm_r = 0.0;
-  check_petsc(VecDuplicate(b, r.renew()), "create a vector");
-  check_petsc(MatMult(mat, x, r.get()), "multiply");
-  check_petsc(VecAYPX(r.get(), -1.0, b), "add vectors");
-  check_petsc(VecNorm(r.get(), NORM_2, &norm_r), "take a norm");
-  check_petsc(VecNorm(b, NORM_2, &norm_b), "take a norm");
+  petsc(VecDuplicate(b, r.renew()));
+  petsc(MatMult(mat, x, r.get()));
+  petsc(VecAYPX(r.get(), -1.0, b));
+  petsc(VecNorm(r.get(), NORM_2, &norm_r));
+  petsc(VecNorm(b, NORM_2, &norm_b));
   return norm_b > 0.0 ? norm_r / norm_b : norm_r;
 }
 
-SolveReport LinearSolver::solve(const SystemMatrix& matrix, std::span<const double> b, std::span<double> x, bool keep) {
+SolveReport LinearSolver::solve(const SystemMatrix& matrix, std::span<const double> b, std::span<double> x,
+                                bool keep) {
   SolveReport report;
   ::Mat mat = matrix.mat();
   PetscInt n_global = 0;
-  check_petsc(MatGetSize(mat, &n_global, nullptr), "read a matrix's size");
+  petsc(MatGetSize(mat, &n_global, nullptr));
   if (n_global == 0) return report;
   if (!ksp_ || structure_ != matrix.structure()) {
     set_up(matrix);
@@ -155,7 +157,8 @@ SolveReport LinearSolver::solve(const SystemMatrix& matrix, std::span<const doub
   const OwnedVec solution = wrap(comm, x, n_global);
   PetscErrorCode code = 0;
   {
-    const QuietPetsc quiet;  // some packages report a singular matrix as an error, which is no reason to abort
+    const QuietPetsc
+        quiet;  // some packages report a singular matrix as an error, which is no reason to abort
     code = KSPSetReusePreconditioner(ksp, keep ? PETSC_TRUE : PETSC_FALSE);
     if (code == 0) code = KSPSetOperators(ksp, mat, mat);
     if (code == 0) code = KSPSolve(ksp, rhs.get(), solution.get());
@@ -169,8 +172,8 @@ SolveReport LinearSolver::solve(const SystemMatrix& matrix, std::span<const doub
   }
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   PetscInt iterations = 0;
-  check_petsc(KSPGetConvergedReason(ksp, &reason), "read a solver's state");
-  check_petsc(KSPGetIterationNumber(ksp, &iterations), "read a solver's state");
+  petsc(KSPGetConvergedReason(ksp, &reason));
+  petsc(KSPGetIterationNumber(ksp, &iterations));
   report.iterations = static_cast<int>(iterations);
   if (reason < 0) {
     report.solved = false;
@@ -183,6 +186,17 @@ SolveReport LinearSolver::solve(const SystemMatrix& matrix, std::span<const doub
     report.solved = false;
     report.cause = "the matrix is singular to working precision";
   }
+  return report;
+}
+
+SolveReport LinearSolver::solve(const SystemMatrix& matrix, const DofMap& dofs, const Halo& halo,
+                                std::span<const double> rhs, std::span<double> solution, bool keep) {
+  b_.resize(static_cast<std::size_t>(dofs.n_owned()));
+  x_.resize(b_.size());
+  dofs.gather(rhs, b_);
+  dofs.gather(solution, x_);
+  const SolveReport report = solve(matrix, b_, x_, keep);
+  dofs.scatter(x_, solution, halo);
   return report;
 }
 

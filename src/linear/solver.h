@@ -7,14 +7,16 @@
 #include <vector>
 
 #include "core/describe.h"
+#include "core/error.h"
 #include "linear/system_matrix.h"
 
 namespace wisp {
 
 enum class SolverKind { automatic, direct, iterative };
 template <>
-inline constexpr auto choices<SolverKind> = choice_list<SolverKind>(
-    {{"auto", SolverKind::automatic}, {"direct", SolverKind::direct}, {"iterative", SolverKind::iterative}});
+inline constexpr auto choices<SolverKind> = choice_list<SolverKind>({{"auto", SolverKind::automatic},
+                                                                     {"direct", SolverKind::direct},
+                                                                     {"iterative", SolverKind::iterative}});
 
 /// How linear systems are solved.
 struct SolverOptions {
@@ -32,24 +34,29 @@ struct SolverOptions {
         key("solver", &SolverOptions::solver, "",
             "auto: a sparse direct solver for small systems, else conjugate gradients with multigrid"),
         key("tolerance", &SolverOptions::tolerance, "-",
-            "relative residual at which an iterative solver stops").positive().below(1.0),
-        key("max_iterations", &SolverOptions::max_iterations, "-", "most iterations of an iterative solver").at_least(1),
+            "relative residual at which an iterative solver stops")
+            .positive()
+            .below(1.0),
+        key("max_iterations", &SolverOptions::max_iterations, "-", "most iterations of an iterative solver")
+            .at_least(1),
         key("petsc_options", &SolverOptions::petsc_options, "",
-            "options of PETSc's KSP and PC, such as \"-ksp_type minres -pc_type jacobi\"; they override the above")};
+            "options of PETSc's KSP and PC, such as \"-ksp_type minres -pc_type jacobi\"; they override the "
+            "above")};
   }
 };
 
 /// What is known of a matrix beyond its entries.
 struct MatrixTraits {
-  int dim = 2;             ///< space dimension: direct solvers fill in faster in 3D
-  bool symmetric = false;  ///< L D L^T and conjugate gradients (then also positive definite), not LU and GMRES
-  /// Coordinates of this rank's unknowns, n_owned/components x dim, for multigrid's rigid-body modes; only used when the
-  /// numbering keeps whole blocks (FixedUnknowns::unit_rows). May be empty.
+  int dim = 2;  ///< space dimension: direct solvers fill in faster in 3D
+  bool symmetric =
+      false;  ///< L D L^T and conjugate gradients (then also positive definite), not LU and GMRES
+  /// Coordinates of this rank's unknowns, n_owned/components x dim, for multigrid's rigid-body modes; only
+  /// used when the numbering keeps whole blocks (FixedUnknowns::unit_rows). May be empty.
   std::vector<double> coordinates;
 };
 
-/// How a solve went. `solved` is false when the factorisation met a singular matrix, the result is not finite or worse than
-/// none, or the iteration did not converge; `cause` then says which.
+/// How a solve went. `solved` is false when the factorisation met a singular matrix, the result is not finite
+/// or worse than none, or the iteration did not converge; `cause` then says which.
 struct SolveReport {
   bool solved = true;
   int iterations = 0;     ///< 1 for a direct solver
@@ -57,7 +64,8 @@ struct SolveReport {
   std::string cause;
 };
 
-/// A linear solver that keeps its factorisation or preconditioner between calls. Same input, same bits (on one rank).
+/// A linear solver that keeps its factorisation or preconditioner between calls. Same input, same bits (on
+/// one rank).
 class LinearSolver {
  public:
   explicit LinearSolver(SolverOptions options = {}, MatrixTraits traits = {})
@@ -66,21 +74,15 @@ class LinearSolver {
   const SolverOptions& options() const { return options_; }
   void set_traits(MatrixTraits traits) { traits_ = std::move(traits); }
 
-  /// Solves A x = b for this rank's entries (n_owned each). With an iterative solver x is the initial guess. `keep`: A has
-  /// not changed since the last call, or an old factorisation may serve as the preconditioner. Collective.
-  SolveReport solve(const SystemMatrix& matrix, std::span<const double> b, std::span<double> x, bool keep = false);
-  /// Between local dense arrays (n_local x components): `rhs` is complete on owners, `solution` also on ghosts.
-  template <GhostExchange H>
-  SolveReport solve(const SystemMatrix& matrix, const DofMap& dofs, const H& halo, std::span<const double> rhs,
-                    std::span<double> solution, bool keep = false) {
-    b_.resize(static_cast<std::size_t>(dofs.n_owned()));
-    x_.resize(b_.size());
-    dofs.gather(rhs, b_);
-    dofs.gather(solution, x_);
-    const SolveReport report = solve(matrix, b_, x_, keep);
-    dofs.scatter(x_, solution, halo);
-    return report;
-  }
+  /// Solves A x = b for this rank's entries (n_owned each). With an iterative solver x is the initial guess.
+  /// `keep`: A has not changed since the last call, or an old factorisation may serve as the preconditioner.
+  /// Collective.
+  SolveReport solve(const SystemMatrix& matrix, std::span<const double> b, std::span<double> x,
+                    bool keep = false);
+  /// Between local dense arrays (n_local x components): `rhs` is complete on owners, `solution` also on
+  /// ghosts.
+  SolveReport solve(const SystemMatrix& matrix, const DofMap& dofs, const Halo& halo,
+                    std::span<const double> rhs, std::span<double> solution, bool keep = false);
 
   /// Whether the last set-up chose a direct solver.
   bool direct() const { return direct_; }

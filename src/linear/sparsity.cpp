@@ -29,7 +29,8 @@ void Sparsity::end() {
   for (int f : element_functions_) ++of_function_starts_[at(f) + 1];
   for (int f = 0; f < n; ++f) of_function_starts_[at(f) + 1] += of_function_starts_[at(f)];
   of_function_.resize(element_functions_.size());
-  mark_.assign(of_function_starts_.begin(), of_function_starts_.end() - 1);  // first use: where the next one goes
+  mark_.assign(of_function_starts_.begin(),
+               of_function_starts_.end() - 1);  // first use: where the next one goes
   for (int e = 0; e < n_elements; ++e)
     for (int k = element_starts_[at(e)]; k < element_starts_[at(e) + 1]; ++k)
       of_function_[at(mark_[at(element_functions_[at(k)])]++)] = e;

@@ -6,8 +6,9 @@
 
 namespace wisp {
 
-/// Compressed rows over local functions. Built from elements, the lists of functions that a cell or a facet couples:
-/// every pair within a list is an entry. Columns of a row are sorted; a function in any list has its diagonal.
+/// Compressed rows over local functions. Built from elements, the lists of functions that a cell or a facet
+/// couples: every pair within a list is an entry. Columns of a row are sorted; a function in any list has its
+/// diagonal.
 class Sparsity {
  public:
   /// Starts a new pattern over functions 0 .. n_local-1.
@@ -29,7 +30,9 @@ class Sparsity {
   }
   /// Entry number of (f, g), or -1 where there is none.
   int find(int f, int g) const;
-  bool operator==(const Sparsity& other) const { return starts_ == other.starts_ && columns_ == other.columns_; }
+  bool operator==(const Sparsity& other) const {
+    return starts_ == other.starts_ && columns_ == other.columns_;
+  }
 
  private:
   std::vector<int> starts_{0};

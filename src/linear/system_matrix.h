@@ -3,19 +3,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/error.h"
 #include "linear/block_matrix.h"
 #include "linear/dof_map.h"
 #include "linear/petsc.h"
 
 namespace wisp {
 
-/// The assembled matrix of a problem in PETSc's compressed rows (AIJ), over the unknowns of a DofMap. Prescribed unknowns lose
-/// their row and column (or keep a unit row, scaled like the other diagonals). The structure is kept while the
-/// pattern and the numbering stay the same; then only values are copied.
+/// The assembled matrix of a problem in PETSc's compressed rows (AIJ), over the unknowns of a DofMap.
+/// Prescribed unknowns lose their row and column (or keep a unit row, scaled like the other diagonals). The
+/// structure is kept while the pattern and the numbering stay the same; then only values are copied.
 class SystemMatrix {
  public:
-  /// Sums the contributions of all ranks. A scalar matrix serves `dofs` with several components as M ⊗ I. Every numbered
-  /// unknown gets a diagonal entry, zero if nothing contributes to it. Collective.
+  /// Sums the contributions of all ranks. A scalar matrix serves `dofs` with several components as M ⊗ I.
+  /// Every numbered unknown gets a diagonal entry, zero if nothing contributes to it. Collective.
   void assign(const BlockMatrix& local, const DofMap& dofs);
 
   ::Mat mat() const { return mat_.get(); }

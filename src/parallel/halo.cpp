@@ -82,7 +82,7 @@ Halo::Halo(const std::vector<int>& owner_rank, const std::vector<int>& owner_slo
           fmt::format("halo: slot {} of rank {} belongs to rank {}, but there are {}", i, here, rank, ranks);
     } else if (rank >= 0) {
       ghosts.push_back(static_cast<PetscInt>(i));
-      owners.push_back({owner_slot[i], rank});
+      owners.push_back({rank, owner_slot[i]});
     }
   }
   Session::raise_together(error);

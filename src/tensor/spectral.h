@@ -87,7 +87,7 @@ inline Spectrum<dim> spectrum(const Sym<dim>& s) {
   } else {
     Mat<3> a = matrix<3>(s);
     result.axes.setIdentity();
-    const double enough = 1e-36 * a.squaredNorm();  // 1e-18 of the norm is below rounding
+    const double enough = 1e-33 * a.squaredNorm();  // what is left off the diagonal is below rounding
     for (int sweep = 0; sweep < 12; ++sweep) {
       const double rest = a(0, 1) * a(0, 1) + a(1, 2) * a(1, 2) + a(0, 2) * a(0, 2);
       if (!(rest > enough)) break;  // also ends on NaN

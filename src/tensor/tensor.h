@@ -1,6 +1,7 @@
 // Small tensors: Eigen fixed-size types under the names that the rest of Wisp uses.
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/LU>  // inverse and determinant
 
 namespace wisp {
 

@@ -83,14 +83,30 @@ void update_points(const Basis basis, const Space<dim>& space, Particles<dim>& p
   }
 }
 
+/// A group of no material, for passes that do not strain: they are compiled once for all laws.
+struct NoMaterial {
+  struct Law {
+    static constexpr bool finite_strain = false;
+  } law;
+};
+
 template <int dim, bool with_velocity, bool with_move, bool with_strain, bool strain_from_motion>
 void update_body(const Space<dim>& space, Body<dim>& body, const PointUpdate& update) {
-  std::visit(
-      [&](const auto& basis, auto& group) {
-        update_points<dim, with_velocity, with_move, with_strain, strain_from_motion>(
-            basis, space, body.points, group, update);
-      },
-      space.basis(), body.material);
+  if constexpr (with_strain) {
+    std::visit(
+        [&](const auto& basis, auto& group) {
+          update_points<dim, with_velocity, with_move, true, strain_from_motion>(basis, space, body.points,
+                                                                                 group, update);
+        },
+        space.basis(), body.material);
+  } else {
+    std::visit(
+        [&](const auto& basis) {
+          NoMaterial none;
+          update_points<dim, with_velocity, with_move, false, false>(basis, space, body.points, none, update);
+        },
+        space.basis());
+  }
 }
 
 }  // namespace

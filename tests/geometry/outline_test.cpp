@@ -15,11 +15,14 @@ namespace {
 
 const std::filesystem::path ghost_folder = std::filesystem::path(WISP_SOURCE_DIR) / "verification" / "ghost";
 
-double uniform(double low, double high) { return low + (high - low) * (*rc::gen::inRange(0, 1000001)) / 1e6; }
+/// The whole range from the first trial on: RapidCheck's own ranges start small and grow.
+int integer(int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high)); }
+double uniform(double low, double high) { return low + (high - low) * integer(0, 1000001) / 1e6; }
 
-/// A star-shaped ring about `centre`, radii between `least` and `most`, in either sense.
-Ring star(const Eigen::Vector2d& centre, double least, double most) {
-  const int n = *rc::gen::inRange(3, 25);
+/// A star-shaped ring of `fewest` to 24 vertices about `centre`, radii between `least` and `most`, in either
+/// sense.
+Ring star(const Eigen::Vector2d& centre, double least, double most, int fewest = 3) {
+  const int n = integer(fewest, 25);
   Ring ring;
   for (int i = 0; i < n; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + uniform(0.0, 0.8)) / n;
@@ -33,9 +36,7 @@ Ring star(const Eigen::Vector2d& centre, double least, double most) {
 /// radius).
 Outline star_with_hole() {
   const Eigen::Vector2d centre(uniform(-3.0, 3.0), uniform(-3.0, 3.0));
-  Ring outer = star(centre, 0.7, 1.0);
-  while (outer.size() < 6) outer = star(centre, 0.7, 1.0);
-  return Outline({outer, star(centre, 0.02, 0.1)});
+  return Outline({star(centre, 0.7, 1.0, 6), star(centre, 0.02, 0.1)});
 }
 
 struct Sums {
@@ -90,7 +91,7 @@ RC_GTEST_PROP(Outline, StarContainsWhatItsRadiusSays, ()) {
   const Outline outline({star(centre, 0.5, 1.0)});
   const Ring& ring = outline.rings()[0];
   // A point of a triangle from the centre to a side is inside, and beyond the side outside.
-  const auto i = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(ring.size())));
+  const auto i = static_cast<std::size_t>(integer(0, static_cast<int>(ring.size())));
   const double s = uniform(0.05, 0.95);
   const Eigen::Vector2d a = ring[i] - centre, b = ring[(i + 1) % ring.size()] - centre;
   RC_PRE(a.x() * b.y() - a.y() * b.x() > 1e-6);  // the centre is left of this side
@@ -119,7 +120,7 @@ RC_GTEST_PROP(Clip, CellsOfAGridSumToThePolygon, ()) {
   RC_ASSERT((sums.first / sums.area - whole.centroid).norm() <= 1e-12);
 }
 
-RC_GTEST_PROP(Clip, CellOfAConvexPolygonAgreesWithSampling, ()) {
+RC_GTEST_PROP(Clip, CellAgreesWithSampling, ()) {
   const Outline outline = star_with_hole();
   const Eigen::Vector2d lower = outline.lower() + Eigen::Vector2d(uniform(0.0, 1.0), uniform(0.0, 1.0));
   const Eigen::Vector2d size(uniform(0.2, 1.0), uniform(0.2, 1.0));

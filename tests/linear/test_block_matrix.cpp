@@ -40,10 +40,10 @@ struct Sample {
 
 Eigen::MatrixXd dense_of(::Mat mat) {
   PetscInt n = 0;
-  check_petsc(MatGetSize(mat, &n, nullptr), "read");
+  petsc(MatGetSize(mat, &n, nullptr));
   Eigen::MatrixXd dense(n, n);
   for (PetscInt i = 0; i < n; ++i)
-    for (PetscInt j = 0; j < n; ++j) check_petsc(MatGetValue(mat, i, j, &dense(i, j)), "read");
+    for (PetscInt j = 0; j < n; ++j) petsc(MatGetValue(mat, i, j, &dense(i, j)));
   return dense;
 }
 
@@ -71,7 +71,7 @@ TEST_P(Blocks, become_a_petsc_matrix_without_the_inactive_and_fixed_unknowns) {
   std::vector<char> active(13, 1), fixed(static_cast<std::size_t>(13 * b), 0);
   active[3] = active[12] = 0;
   fixed[0] = fixed[static_cast<std::size_t>(5 * b + b - 1)] = 1;
-  const SerialExchange halo(13);
+  const Halo halo(13);
   for (const auto mode : {FixedUnknowns::removed, FixedUnknowns::unit_rows}) {
     const DofMap dofs(halo, b, active, fixed, mode);
     EXPECT_EQ(dofs.n_global(), 11 * b - (mode == FixedUnknowns::removed ? 2 : 0));
@@ -81,7 +81,8 @@ TEST_P(Blocks, become_a_petsc_matrix_without_the_inactive_and_fixed_unknowns) {
     ASSERT_EQ(a.rows(), dofs.n_global());
     for (int i = 0; i < a.rows(); ++i)
       for (int j = 0; j < a.cols(); ++j) {
-        const int p = dofs.owned()[static_cast<std::size_t>(i)], q = dofs.owned()[static_cast<std::size_t>(j)];
+        const int p = dofs.owned()[static_cast<std::size_t>(i)],
+                  q = dofs.owned()[static_cast<std::size_t>(j)];
         const bool both_free = dofs.is_free(p / b, p % b) && dofs.is_free(q / b, q % b);
         if (both_free) {
           EXPECT_EQ(a(i, j), s.dense(p, q));
@@ -95,7 +96,8 @@ TEST_P(Blocks, become_a_petsc_matrix_without_the_inactive_and_fixed_unknowns) {
 TEST(BlockMatrix, scalar_matrix_serves_several_columns) {
   const Sample s(20, 1, false);
   for (int m = 1; m <= 4; ++m) {
-    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> x = Eigen::MatrixXd::Random(20, m);
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> x =
+        Eigen::MatrixXd::Random(20, m);
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> y(20, m);
     const auto size = static_cast<std::size_t>(20 * m);
     s.sparse.multiply_columns({x.data(), size}, {y.data(), size}, m);
@@ -118,7 +120,7 @@ TEST(BlockMatrix, adds_a_scalar_matrix_of_the_same_pattern) {
 TEST(BlockMatrix, keeps_an_unchanged_pattern_and_the_petsc_matrix_over_it) {
   Sample s(9, 2, false);
   const auto id = s.sparse.pattern_id();
-  const DofMap dofs(SerialExchange(9), 2, std::vector<char>(9, 1));
+  const DofMap dofs(Halo(9), 2, std::vector<char>(9, 1));
   SystemMatrix system;
   system.assign(s.sparse, dofs);
   const auto structure = system.structure();
@@ -132,7 +134,7 @@ TEST(BlockMatrix, keeps_an_unchanged_pattern_and_the_petsc_matrix_over_it) {
   system.assign(s.sparse, dofs);
   EXPECT_EQ(system.structure(), structure);
   double value = 0.0;
-  check_petsc(MatGetValue(system.mat(), 0, 3, &value), "read");
+  petsc(MatGetValue(system.mat(), 0, 3, &value));
   EXPECT_EQ(value, 0.25);
   s.sparse.begin_pattern(9);
   s.sparse.add_element(s.elements[0]);
@@ -148,7 +150,7 @@ TEST(BlockMatrix, says_which_entry_a_pattern_lacks) {
 }
 
 TEST(DofMap, gathers_and_scatters_free_unknowns_only) {
-  const SerialExchange halo(4);
+  const Halo halo(4);
   const std::vector<char> active{1, 0, 1, 1}, fixed{0, 1, 0, 0, 0, 0, 1, 0};
   const DofMap dofs(halo, 2, active, fixed);
   ASSERT_EQ(dofs.n_owned(), 4);

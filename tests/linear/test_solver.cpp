@@ -7,8 +7,8 @@
 namespace wisp {
 namespace {
 
-/// Plane grid of n x n functions with b components each: Laplacian plus `shift` times the identity, and a skew coupling of
-/// neighbours of size `skew` to make it unsymmetric.
+/// Plane grid of n x n functions with b components each: Laplacian plus `shift` times the identity, and a
+/// skew coupling of neighbours of size `skew` to make it unsymmetric.
 BlockMatrix laplacian(int n, int b, double shift, double skew = 0.0) {
   BlockMatrix a(b);
   a.begin_pattern(n * n);
@@ -30,14 +30,15 @@ BlockMatrix laplacian(int n, int b, double shift, double skew = 0.0) {
 }
 
 struct Problem {
-  SerialExchange halo;
+  Halo halo;
   BlockMatrix a;
   DofMap dofs;
   SystemMatrix system;
   std::vector<double> exact, rhs;
 
   Problem(int n, int b, double shift, double skew = 0.0)
-      : halo(n * n), a(laplacian(n, b, shift, skew)),
+      : halo(n * n),
+        a(laplacian(n, b, shift, skew)),
         dofs(halo, b, std::vector<char>(static_cast<std::size_t>(n * n), 1)) {
     system.assign(a, dofs);
     exact.resize(static_cast<std::size_t>(n * n * b));
@@ -89,7 +90,7 @@ TEST(LinearSolver, iterative_solves_and_starts_from_the_given_vector) {
 }
 
 TEST(LinearSolver, reports_a_singular_matrix_and_goes_on) {
-  Problem p(6, 1, 0.0);  // constants are in the kernel
+  Problem p(6, 1, 0.0);                        // constants are in the kernel
   std::vector<double> rhs(p.rhs.size(), 1.0);  // not in the range
   for (const bool symmetric : {true, false}) {
     MatrixTraits traits;
@@ -115,7 +116,7 @@ TEST(LinearSolver, reports_a_zero_row) {
   a.end_pattern();
   const double element[4] = {2, 1, 1, 2};
   a.add(pair, element);
-  const SerialExchange halo(3);
+  const Halo halo(3);
   const DofMap dofs(halo, 1, std::vector<char>(3, 1));
   SystemMatrix system;
   system.assign(a, dofs);

@@ -1,0 +1,2 @@
+#include "high/above.h"
+#include "low/below.h"

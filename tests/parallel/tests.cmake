@@ -1,0 +1,14 @@
+# The same program on several ranks; on one rank it is the test `parallel`.
+set(WISP_MPIRUN mpirun --oversubscribe --quiet)
+if("$ENV{USER}" STREQUAL "root" OR "$ENV{HOME}" STREQUAL "/root")
+  list(APPEND WISP_MPIRUN --allow-run-as-root)
+endif()
+foreach(ranks 2 3 4)
+  add_test(NAME parallel.${ranks}_ranks COMMAND ${WISP_MPIRUN} -n ${ranks} $<TARGET_FILE:test_parallel>)
+  set_tests_properties(parallel.${ranks}_ranks PROPERTIES PROCESSORS ${ranks} TIMEOUT 120)
+endforeach()
+# A failure on one rank only must fail the whole run, or these tests prove nothing.
+add_test(NAME parallel.failure_on_one_rank
+         COMMAND ${WISP_MPIRUN} -x WISP_FAIL_ON_RANK=1 -n 3 $<TARGET_FILE:test_parallel>
+                 --gtest_filter=Session.FailsOnTheRankItIsToldTo)
+set_tests_properties(parallel.failure_on_one_rank PROPERTIES WILL_FAIL TRUE PROCESSORS 3 TIMEOUT 120)
