@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace wisp {
 
@@ -18,9 +19,24 @@ std::string duration_text(double seconds) {
   return fmt::format("{}:{:02}", minutes, rest);
 }
 
+namespace {
+
+/// Columns of the terminal behind a file, 0 if there is none. Ranks write into a pipe: the process that
+/// started them tells the width in WISP_TERMINAL.
+int terminal_width(std::FILE* out) {
+  if (isatty(fileno(out)) != 0) {
+    winsize size{};
+    return ioctl(fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+  }
+  const char* told = out == stdout ? std::getenv("WISP_TERMINAL") : nullptr;
+  return told ? std::max(0, std::atoi(told)) : 0;
+}
+
+}  // namespace
+
 Progress::Progress(std::string_view label, Style style, std::FILE* out)
     : label_(label), style_(style), out_(out) {
-  if (style_ == Style::automatic) style_ = isatty(fileno(out_)) != 0 ? Style::bar : Style::lines;
+  if (style_ == Style::automatic) style_ = terminal_width(out_) > 0 ? Style::bar : Style::lines;
 }
 
 bool Progress::wants_update(double done) const {
@@ -60,9 +76,8 @@ void Progress::draw(double done, std::string_view remark) {
                                            : std::string("...");
   std::string text = fmt::format("{} [{}] {:3.0f} %  {}", label_, bar, 100.0 * done, left);
   if (!remark.empty()) text += fmt::format("  {}", remark);
-  winsize size{};
-  if (ioctl(fileno(out_), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 && text.size() >= size.ws_col)
-    text.resize(size.ws_col - 1u);  // a wrapped line could not be redrawn
+  const auto width = static_cast<std::size_t>(std::max(20, terminal_width(out_)));
+  if (text.size() >= width) text.resize(width - 1);  // a wrapped line could not be redrawn
   fmt::print(out_, "\r\x1b[2K{}", text);
   std::fflush(out_);
   bar_open_ = true;

@@ -26,7 +26,9 @@ struct IndexBox {
       if (index[d] < lower[d] || index[d] >= upper[d]) return false;
     return true;
   }
-  friend bool operator==(const IndexBox& a, const IndexBox& b) { return a.lower == b.lower && a.upper == b.upper; }
+  friend bool operator==(const IndexBox& a, const IndexBox& b) {
+    return a.lower == b.lower && a.upper == b.upper;
+  }
 };
 
 /// Calls `visit(index)` for every multi-index of the box, x fastest.

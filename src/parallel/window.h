@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "parallel/index_box.h"
 #include "parallel/box_partition.h"
+#include "parallel/index_box.h"
 
 namespace wisp {
 

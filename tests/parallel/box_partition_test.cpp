@@ -34,7 +34,7 @@ std::vector<MultiIndex<dim>> random_cloud(unsigned seed, const MultiIndex<dim>& 
 template <int dim>
 void expect_each_cell_owned_once(const BoxPartition<dim>& partition) {
   const MultiIndex<dim> n = partition.n_cells();
-  const Box<dim> grid{MultiIndex<dim>::Zero(), n};
+  const IndexBox<dim> grid{MultiIndex<dim>::Zero(), n};
   std::int64_t cells = 0;
   for (int part = 0; part < partition.n_parts(); ++part) {
     EXPECT_GT(partition.box(part).count(), 0);

@@ -44,7 +44,7 @@ struct Slots {
         window(partition),
         nodes(of_nodes),
         halo(of_nodes ? make_node_halo(partition, window) : make_cell_halo(partition, window)) {}
-  [[nodiscard]] const Box<dim>& box(const Window<dim>& w) const { return nodes ? w.nodes() : w.cells(); }
+  [[nodiscard]] const IndexBox<dim>& box(const Window<dim>& w) const { return nodes ? w.nodes() : w.cells(); }
   [[nodiscard]] bool in_grid(const MultiIndex<dim>& i) const {
     return nodes ? window.node_in_grid(i) : window.cell_in_grid(i);
   }
@@ -111,7 +111,7 @@ void check(const MultiIndex<dim>& n_cells) {
       owned += mine ? 1 : 0;
     });
     ASSERT_EQ(s.halo.n_owned(), owned);
-    const Box<dim>& grid = nodes ? s.window.grid_nodes() : s.window.grid_cells();
+    const IndexBox<dim>& grid = nodes ? s.window.grid_nodes() : s.window.grid_cells();
     ASSERT_EQ(Session::sum(owned), grid.count());
     check_sums<dim, double>(s);
     check_sums<dim, int>(s);

@@ -1,6 +1,7 @@
 # The same program on several ranks; on one rank it is the test `parallel`.
 set(WISP_MPIRUN mpirun --oversubscribe --quiet)
-if("$ENV{USER}" STREQUAL "root" OR "$ENV{HOME}" STREQUAL "/root")
+execute_process(COMMAND id -u OUTPUT_VARIABLE wisp_user OUTPUT_STRIP_TRAILING_WHITESPACE)
+if(wisp_user STREQUAL "0")
   list(APPEND WISP_MPIRUN --allow-run-as-root)
 endif()
 foreach(ranks 2 3 4)
@@ -12,3 +13,9 @@ add_test(NAME parallel.failure_on_one_rank
          COMMAND ${WISP_MPIRUN} -x WISP_FAIL_ON_RANK=1 -n 3 $<TARGET_FILE:test_parallel>
                  --gtest_filter=Session.FailsOnTheRankItIsToldTo)
 set_tests_properties(parallel.failure_on_one_rank PROPERTIES WILL_FAIL TRUE PROCESSORS 3 TIMEOUT 120)
+# A rank that fails alone must not leave the others waiting for ever.
+add_test(NAME parallel.one_rank_ends_all
+         COMMAND sh -c "\"$@\"; echo status $?" sh ${WISP_MPIRUN} -x WISP_FAIL_ALONE_ON_RANK=1 -n 3
+                 $<TARGET_FILE:test_parallel> --gtest_filter=Session.KnowsWhetherAllRanksFailed)
+set_tests_properties(parallel.one_rank_ends_all PROPERTIES
+  PASS_REGULAR_EXPRESSION "failed together: no.*status 1" PROCESSORS 3 TIMEOUT 60)

@@ -6,7 +6,7 @@ namespace wisp {
 namespace {
 
 TEST(Window, NumbersNodesAndCellsDenselyWithXFastest) {
-  const Window<2> w(MultiIndex<2>(10, 8), Box<2>{{4, 0}, {7, 8}});
+  const Window<2> w(MultiIndex<2>(10, 8), IndexBox<2>{{4, 0}, {7, 8}});
   EXPECT_EQ(w.n_cells(), 7 * 12);
   EXPECT_EQ(w.n_nodes(), 8 * 13);
   EXPECT_EQ(w.cell_strides(), MultiIndex<2>(1, 7));
@@ -32,7 +32,7 @@ TEST(Window, NumbersNodesAndCellsDenselyWithXFastest) {
 }
 
 TEST(Window, NumbersThreeDirections) {
-  const Window<3> w(MultiIndex<3>(5, 6, 7), Box<3>{{1, 2, 3}, {3, 4, 5}});
+  const Window<3> w(MultiIndex<3>(5, 6, 7), IndexBox<3>{{1, 2, 3}, {3, 4, 5}});
   EXPECT_EQ(w.node_strides(), MultiIndex<3>(1, 7, 49));
   EXPECT_EQ(w.cell_strides(), MultiIndex<3>(1, 6, 36));
   for (int node = 0; node < w.n_nodes(); ++node) ASSERT_EQ(w.node_index(w.node_multi_index(node)), node);
@@ -40,8 +40,8 @@ TEST(Window, NumbersThreeDirections) {
 
 TEST(Window, TellsOwnGhostAndPhantomApart) {
   const MultiIndex<2> n(10, 8);
-  const Window<2> left(n, Box<2>{{0, 0}, {4, 8}});
-  const Window<2> right(n, Box<2>{{4, 0}, {10, 8}});
+  const Window<2> left(n, IndexBox<2>{{0, 0}, {4, 8}});
+  const Window<2> right(n, IndexBox<2>{{4, 0}, {10, 8}});
   EXPECT_TRUE(left.owns_cell({3, 7}));
   EXPECT_FALSE(left.owns_cell({4, 7}));
   EXPECT_TRUE(left.contains_cell({5, 7}));

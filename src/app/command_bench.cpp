@@ -1,0 +1,24 @@
+// wisp bench [--points N]
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/launch.h"
+#include "app/program.h"
+
+namespace wisp {
+
+void add_bench(CLI::App& app, const Engine& engine, int* status) {
+  auto points = std::make_shared<int>(1000000);
+  CLI::App* command = app.add_subcommand("bench", "measure the speed of the engine against bare kernels");
+  command->add_option("--points", *points, "points of the largest case")
+      ->check(CLI::Range(1000, 100000000))
+      ->capture_default_str();
+  command->callback([points, &engine, status] {
+    *status = with_session([&] {
+      engine.bench(*points);
+      return 0;
+    });
+  });
+}
+
+}  // namespace wisp

@@ -1,2 +1,0 @@
-#include "high/above.h"
-#include "low/below.h"
