@@ -1,4 +1,5 @@
 // The program: commands from src/app, published tables from the folders beside this file.
+#include "app/bench.h"
 #include "app/launch.h"
 #include "app/program.h"
 #include "io/run.h"
@@ -8,5 +9,6 @@ int main(int argc, char** argv) {
   wisp::Engine engine;
   engine.run = [](const wisp::Case& c, const std::filesystem::path& folder) { wisp::run_case(c, folder); };
   engine.resume = [](const std::filesystem::path& folder) { wisp::resume_run(folder); };
+  engine.bench = wisp::bench;
   return wisp::program(argc, argv, engine);
 }
