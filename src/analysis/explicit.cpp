@@ -90,10 +90,9 @@ void Explicit<dim>::assemble_mass() {
       model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>());
 }
 
-/// Start-of-step velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition
-/// holds.
+/// Velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition holds, as at time t.
 template <int dim>
-void Explicit<dim>::solve_velocity(std::vector<double>& velocity) {
+void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   velocity.resize(n * dim, 0.0);
   const auto& constraints = model_.constraints;
@@ -101,7 +100,7 @@ void Explicit<dim>::solve_velocity(std::vector<double>& velocity) {
     for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
       if (constraints.fixed[k])
         velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(model_.time, 0.0);
+            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t, 0.0);
   };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -275,7 +274,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   {
     const auto timer = model_.timers.start(3);
-    solve_velocity(velocity_);
+    solve_velocity(model_.time, velocity_);
   }
   if (scheme == StressUpdate::usf) {
     PointUpdate strain = update;
@@ -309,7 +308,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     {
       const auto timer = model_.timers.start(1);
       gather(Gather::inertia);
-      solve_velocity(strain_velocity_);
+      solve_velocity(model_.time + dt, strain_velocity_);
     }
     update.velocity = false, update.strain_velocity = strain_velocity_;
   }

@@ -34,7 +34,7 @@ class Explicit {
  private:
   void gather(Gather what);
   void assemble_mass();
-  void solve_velocity(std::vector<double>& velocity);
+  void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
   void check_finite() const;

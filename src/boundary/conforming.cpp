@@ -1,5 +1,6 @@
 #include "boundary/conforming.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -32,6 +33,14 @@ template <int dim>
 void check_length(const std::vector<double>& list, const char* key, const std::string& condition) {
   if (!list.empty() && list.size() != dim)
     input_error("boundary '{}': {} needs {} values, found {}", condition, key, dim, list.size());
+}
+
+/// Slope of the piece of a curve that ends at t or contains it; zero up to its first and beyond its last point.
+double slope_before(const Curve& curve, double t) {
+  if (t <= curve.times.front() || t > curve.times.back()) return 0.0;
+  const auto i = static_cast<std::size_t>(
+      std::lower_bound(curve.times.begin(), curve.times.end(), t) - curve.times.begin());
+  return (curve.values[i] - curve.values[i - 1]) / (curve.times[i] - curve.times[i - 1]);
 }
 
 }  // namespace
@@ -76,7 +85,11 @@ Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& 
   for (int d = 0; d < dim; ++d) {
     // Only a condition along the whole edge plane counts as one on the edge.
     const auto k = static_cast<std::size_t>(2 * d);
-    if (held.upper[d] - held.lower[d] == 1)
+    const auto& all = space.window().grid_nodes();
+    bool whole = held.upper[d] - held.lower[d] == 1;
+    for (int e = 0; e < dim; ++e)
+      whole &= e == d || (held.lower[e] == all.lower[e] && held.upper[e] == all.upper[e]);
+    if (whole)
       edge_[k] = held.lower[d] == 0, edge_[k + 1] = held.lower[d] == grid.cells(d);
   }
   for_each_in(held, [&](const MultiIndex<dim>& i) {
@@ -94,7 +107,8 @@ double Conforming<dim>::increment(double t, double dt) const {
 template <int dim>
 double Conforming<dim>::velocity(double t, double dt) const {
   if (options_.velocity) return (*options_.velocity)(t + dt);
-  return dt > 0 ? increment(t, dt) / dt : 0.0;
+  if (dt > 0) return increment(t, dt) / dt;
+  return options_.displacement ? slope_before(*options_.displacement, t) : 0.0;
 }
 
 template <int dim>

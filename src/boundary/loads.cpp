@@ -1,5 +1,6 @@
 #include "boundary/loads.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
