@@ -3,6 +3,7 @@
 #include "app/program.h"
 
 int main(int argc, char** argv) {
+  wisp::use_one_blas_thread(argv);
   wisp::Engine engine;
   return wisp::program(argc, argv, engine);
 }

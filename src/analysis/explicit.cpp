@@ -100,7 +100,7 @@ void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
     for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
       if (constraints.fixed[k])
         velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t, 0.0);
+            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t - dt_, dt_);
   };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -249,6 +249,7 @@ void Explicit<dim>::points(const PointUpdate& update) {
 
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
+  dt_ = dt;
   const StressUpdate scheme = options_.stress_update;
   const bool pic = options_.velocity_update != VelocityUpdate::flip;
   PointUpdate update;

@@ -1,6 +1,5 @@
 #include "boundary/conforming.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -33,14 +32,6 @@ template <int dim>
 void check_length(const std::vector<double>& list, const char* key, const std::string& condition) {
   if (!list.empty() && list.size() != dim)
     input_error("boundary '{}': {} needs {} values, found {}", condition, key, dim, list.size());
-}
-
-/// Slope of the piece of a curve that ends at t or contains it; zero up to its first and beyond its last point.
-double slope_before(const Curve& curve, double t) {
-  if (t <= curve.times.front() || t > curve.times.back()) return 0.0;
-  const auto i = static_cast<std::size_t>(
-      std::lower_bound(curve.times.begin(), curve.times.end(), t) - curve.times.begin());
-  return (curve.values[i] - curve.values[i - 1]) / (curve.times[i] - curve.times[i - 1]);
 }
 
 }  // namespace
@@ -107,8 +98,7 @@ double Conforming<dim>::increment(double t, double dt) const {
 template <int dim>
 double Conforming<dim>::velocity(double t, double dt) const {
   if (options_.velocity) return (*options_.velocity)(t + dt);
-  if (dt > 0) return increment(t, dt) / dt;
-  return options_.displacement ? slope_before(*options_.displacement, t) : 0.0;
+  return dt > 0 ? increment(t, dt) / dt : 0.0;
 }
 
 template <int dim>

@@ -24,8 +24,7 @@ class Conforming {
 
   /// Prescribed displacement (m) over a step from t to t + dt.
   double increment(double t, double dt) const;
-  /// Prescribed velocity (m/s) at the end of a step from t to t + dt; with dt = 0 the one at time t, which of a
-  /// prescribed displacement is that of its arrival at t, as a step that ended there had it.
+  /// Prescribed velocity (m/s) at the end of a step from t to t + dt.
   double velocity(double t, double dt) const;
 
   /// Whether the condition holds functions on the lower (side 0) or upper (side 1) edge of the grid in a

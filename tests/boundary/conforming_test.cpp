@@ -68,12 +68,6 @@ TEST(Conforming, IsPrescribedByDisplacement) {
   EXPECT_DOUBLE_EQ(wall.increment(0.5, 1.0), 1.0);
   EXPECT_DOUBLE_EQ(wall.velocity(0.2, 0.3), 3.0);
   EXPECT_DOUBLE_EQ(wall.velocity(0.5, 1.0), 1.0);
-  // At an instant: the velocity with which the wall arrives there.
-  EXPECT_DOUBLE_EQ(wall.velocity(0.0, 0.0), 0.0);
-  EXPECT_DOUBLE_EQ(wall.velocity(0.5, 0.0), 3.0);
-  EXPECT_DOUBLE_EQ(wall.velocity(1.0, 0.0), 3.0);
-  EXPECT_DOUBLE_EQ(wall.velocity(1.5, 0.0), -1.0);
-  EXPECT_DOUBLE_EQ(wall.velocity(2.5, 0.0), 0.0);
 }
 
 TEST(Conforming, IsPrescribedByVelocity) {
