@@ -177,11 +177,10 @@ void Explicit<dim>::set_motion(double dt) {
     }
   if (model_.conditions.empty()) return;
   // R = M a - f at held unknowns.
-  std::vector<double> inertia;
   if (consistent_) {
-    inertia.resize(n * dim);
-    mass_.multiply_columns(acceleration_, inertia, dim);
-    model_.space->nodes().add(inertia.data(), dim);
+    inertia_.resize(n * dim);
+    mass_.multiply_columns(acceleration_, inertia_, dim);
+    model_.space->nodes().add(inertia_.data(), dim);
   }
   for (auto& r : model_.reactions) r.setZero();
   for (std::size_t i = 0; i < n; ++i) {
@@ -189,7 +188,7 @@ void Explicit<dim>::set_motion(double dt) {
     for (std::size_t d = 0; d < dim; ++d) {
       const std::size_t k = i * dim + d;
       if (!model_.constraints.fixed[k]) continue;
-      const double ma = consistent_ ? inertia[k] : sums_[i * sums_stride<dim>] * acceleration_[k];
+      const double ma = consistent_ ? inertia_[k] : sums_[i * sums_stride<dim>] * acceleration_[k];
       model_.reactions[static_cast<std::size_t>(model_.constraints.condition[k])][static_cast<int>(d)] +=
           ma - right_side_[k];
     }
@@ -234,8 +233,8 @@ void Explicit<dim>::add_work(double dt) {
       double f = sums_[i * sums_stride<dim>] * gravity[static_cast<int>(d)];
       if (!loads_.empty()) f += loads_[i * dim + d];
       const std::size_t k = i * dim + d;
-      if (model_.constraints.any && model_.constraints.fixed[k] && !consistent_)
-        f += sums_[i * sums_stride<dim>] * acceleration_[k] - right_side_[k];
+      if (model_.constraints.any && model_.constraints.fixed[k])
+        f += (consistent_ ? inertia_[k] : sums_[i * sums_stride<dim>] * acceleration_[k]) - right_side_[k];
       work += dt * f * motion_[i * motion_stride<dim> + d];
     }
   }
