@@ -32,6 +32,6 @@ struct CaseText {
   Case read() const { return read_case(CaseSource{"test.toml", ".", text(), {}}); }
 };
 
-inline constexpr std::string_view ghost = "[stabilisation]\ntype = \"ghost\"\n";
+inline constexpr std::string_view ghost = "[stabilisation]\n";
 
 }  // namespace wisp::test

@@ -33,7 +33,6 @@ directions = ["x", "y"]
 acceleration = [0.0, -10.0]
 factor = {factor}
 [stabilisation]
-type = "ghost"
 [[stage]]
 {stage}
 [output]
