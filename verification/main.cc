@@ -4,6 +4,7 @@
 #include "io/run.h"
 
 int main(int argc, char** argv) {
+  wisp::use_one_blas_thread(argv);
   wisp::Engine engine;
   engine.run = [](const wisp::Case& c, const std::filesystem::path& folder) { wisp::run_case(c, folder); };
   engine.resume = [](const std::filesystem::path& folder) { wisp::resume_run(folder); };

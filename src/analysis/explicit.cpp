@@ -106,7 +106,7 @@ void Explicit<dim>::solve_velocity(std::vector<double>& velocity) {
     for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
       if (constraints.fixed[k])
         velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(model_.time, 0.0);
+            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(model_.time - dt_, dt_);
   };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -264,6 +264,7 @@ void Explicit<dim>::points(const PointUpdate& update) {
 
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
+  dt_ = dt;
   const StressUpdate scheme = options_.stress_update;
   const bool pic = options_.velocity_update != VelocityUpdate::flip;
   PointUpdate update;

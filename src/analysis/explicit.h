@@ -51,6 +51,7 @@ class Explicit {
   Model<dim>& model_;
   ExplicitOptions options_;
   bool consistent_;
+  double dt_ = 0.0;  // of the running step
   // Arrays over functions; see explicit_transfer.h for the records.
   std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_;
   BlockMatrix mass_{1};

@@ -46,7 +46,7 @@ class Implicit {
   NewtonReport attempt(double dt);
   void set_up(double dt);
   void external_force(double t, std::vector<double>& force) const;
-  void start_inertia();
+  void start_inertia(double dt);
   double residual(std::span<const double> u, double dt);
   std::string correct(std::span<double> du, std::span<const double> u, double dt);
   void finish(std::span<const double> u, double dt);
