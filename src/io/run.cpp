@@ -79,7 +79,7 @@ class Run {
     step_in_stage_ = first.integer("step in stage");
     stage_start_ = first.number("stage start");
     if (const auto& energy = first.doubles("first energy"); !energy.empty()) first_energy_ = energy.front();
-    told_removed_ = model_.removed;
+    told_removed_ = model_.removed, checkpoint_step_ = model_.step;
     if (same_ranks) warm_ = {first.doubles("warm velocity"), first.doubles("warm acceleration")};
     results_.emplace(
         ResultsFolder::resume(folder_, columns_.titles(), model_.time, first.integer("last row")));
@@ -162,6 +162,7 @@ class Run {
   std::optional<WarmStart> warm_;       ///< of the checkpoint, until its stage goes on
   double last_dt_ = 0.0;                ///< s
   std::int64_t told_removed_ = 0;
+  std::int64_t checkpoint_step_ = -1;    ///< of the newest checkpoint
   double point_steps_ = 0.0;
   std::vector<StageTimes> times_;
 };
@@ -235,6 +236,7 @@ void Run<dim>::add_checkpoint(Analysis& analysis, bool stage_is_over) {
   results_->add_checkpoint(checkpoint);
   // A run that goes on from here has nothing kept in its solvers, so neither has this one.
   analysis.renew_solver();
+  checkpoint_step_ = model_.step;
 }
 
 /// The row after the last step: energies of the state that no further step starts from.
@@ -304,7 +306,13 @@ void Run<dim>::stage(const Options& options) {
     Row<dim> row;
     // Ends of steps are not summed, so that a step that was halted midway ends where it should have.
     row.dt = target - time;
-    row.newton = analysis.step(row.dt, &row.energy);
+    try {
+      row.newton = analysis.step(row.dt, &row.energy);
+    } catch (const StepRefused& refused) {
+      if (checkpoint_step_ != model_.step || model_.time > time) add_checkpoint(analysis, false);
+      run_error("{}; the state at t = {:.6g} s, after step {}, is kept: wisp resume {}", refused.what(),
+                model_.time, model_.step, folder_.string());
+    }
     step_in_stage_ = next;
     model_.time = target;
     if (row_due() || next == options.steps) {
