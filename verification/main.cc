@@ -1,9 +1,12 @@
 // The program: commands from src/app, published tables from the folders beside this file.
 #include "app/launch.h"
 #include "app/program.h"
+#include "io/run.h"
 
 int main(int argc, char** argv) {
   wisp::use_one_blas_thread(argv);
   wisp::Engine engine;
+  engine.run = [](const wisp::Case& c, const std::filesystem::path& folder) { wisp::run_case(c, folder); };
+  engine.resume = [](const std::filesystem::path& folder) { wisp::resume_run(folder); };
   return wisp::program(argc, argv, engine);
 }

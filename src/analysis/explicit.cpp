@@ -35,6 +35,11 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
 }
 
 template <int dim>
+void Explicit<dim>::renew_solver() {
+  solver_ = MassSolver(mass_solver_options(model_.options.solver));
+}
+
+template <int dim>
 double Explicit<dim>::time_step(double end) const {
   const double rest = end - model_.time;
   if (options_.dt) {
@@ -221,6 +226,15 @@ void Explicit<dim>::record_energy(EnergyRecord& record) const {
   Vec<3> sum = Session::sum(Vec<3>(record.kinetic, record.strain, record.dissipation));
   record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2];
   record.external_work = model_.external_work;
+}
+
+template <int dim>
+void Explicit<dim>::measure(EnergyRecord& record) {
+  model_.settle();
+  gather(Gather::inertia);
+  if (consistent_) assemble_mass();
+  solve_velocity(velocity_);
+  record_energy(record);
 }
 
 /// Work of body forces and loads on the end-of-step velocity, and of prescribed motion against its reactions.

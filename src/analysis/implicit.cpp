@@ -66,6 +66,12 @@ Implicit<dim>::Implicit(Model<dim>& model, const ImplicitDynamicOptions& o)
     model_.timers.part(name);
 }
 
+template <int dim>
+void Implicit<dim>::renew_solver() {
+  solver_ = LinearSolver(model_.options.solver);
+  solver_.set_traits({dim, false, {}});
+}
+
 /// Everything that stays the same in a step: stencils, active functions, numbering, Ghost matrix, external
 /// forces.
 template <int dim>

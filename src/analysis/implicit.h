@@ -31,6 +31,9 @@ class Implicit {
   /// One step, halved up to `cuts` times where Newton fails. Errors (RunError): it fails all the same.
   ImplicitRecord step(double dt, EnergyRecord* record = nullptr);
 
+  /// Drops what the solver keeps between steps, as in a run that starts here.
+  void renew_solver();
+
   /// The tangent of the last Newton iteration with Ghost, over all local functions, and its free unknowns.
   const BlockMatrix& stiffness() const { return stiffness_; }
   const DofMap& unknowns() const { return dofs_; }
