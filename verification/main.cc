@@ -3,6 +3,7 @@
 #include "app/launch.h"
 #include "app/program.h"
 #include "io/run.h"
+#include "verification/tables.h"
 
 int main(int argc, char** argv) {
   wisp::use_one_blas_thread(argv);
@@ -10,5 +11,6 @@ int main(int argc, char** argv) {
   engine.run = [](const wisp::Case& c, const std::filesystem::path& folder) { wisp::run_case(c, folder); };
   engine.resume = [](const std::filesystem::path& folder) { wisp::resume_run(folder); };
   engine.bench = wisp::bench;
+  engine.tables = wisp::verification_tables();
   return wisp::program(argc, argv, engine);
 }
