@@ -231,7 +231,7 @@ void Explicit<dim>::measure(EnergyRecord& record) {
   model_.settle();
   gather(Gather::inertia);
   if (consistent_) assemble_mass();
-  solve_velocity(velocity_);
+  solve_velocity(model_.time, velocity_);
   record_energy(record);
 }
 
