@@ -83,7 +83,10 @@ class Run {
     if (same_ranks) warm_ = {first.doubles("warm velocity"), first.doubles("warm acceleration")};
     results_.emplace(
         ResultsFolder::resume(folder_, columns_.titles(), model_.time, first.integer("last row")));
-    tell(fmt::format("going on from step {} at t = {:.6g} s", model_.step, model_.time));
+    if (stage_ == case_.stages.size())
+      tell(fmt::format("the run has ended already, with step {} at t = {:.6g} s", model_.step, model_.time));
+    else
+      tell(fmt::format("going on from step {} at t = {:.6g} s", model_.step, model_.time));
     go();
   }
 
@@ -162,7 +165,7 @@ class Run {
   std::optional<WarmStart> warm_;       ///< of the checkpoint, until its stage goes on
   double last_dt_ = 0.0;                ///< s
   std::int64_t told_removed_ = 0;
-  std::int64_t checkpoint_step_ = -1;    ///< of the newest checkpoint
+  std::int64_t checkpoint_step_ = -1;  ///< of the newest checkpoint
   double point_steps_ = 0.0;
   std::vector<StageTimes> times_;
 };
