@@ -24,7 +24,9 @@ namespace {
 /// Columns of the terminal behind a file, 0 if there is none. Ranks write into a pipe: the process that
 /// started them tells the width in WISP_TERMINAL.
 int terminal_width(std::FILE* out) {
-  if (isatty(fileno(out)) != 0) {
+  // Launchers give ranks a terminal of their own (Open MPI), whatever the user's words go to.
+  const bool launched = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || std::getenv("PMI_SIZE") != nullptr;
+  if (!launched && isatty(fileno(out)) != 0) {
     winsize size{};
     return ioctl(fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
   }
