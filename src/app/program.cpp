@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "app/launch.h"
 #include "core/error.h"
+#include "core/nearest.h"
 #include "core/version.h"
 
 namespace wisp {
@@ -16,6 +18,16 @@ bool is_other_rank() {
   for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"})
     if (const char* rank = std::getenv(variable)) return std::string(rank) != "0";
   return false;
+}
+
+/// CLI11 only says that a command is required; name the nearest.
+void check_command(int argc, char** argv, const CLI::App& app) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) == names.end())
+    input_error("unknown command '{}'{}", argv[1], suggestion(argv[1], names));
 }
 
 }  // namespace
@@ -38,6 +50,7 @@ int program(int argc, char** argv, const Engine& engine) {
     add_picture(app, &status);
     add_verify(app, engine, &status);
     if (engine.bench) add_bench(app, engine, &status);
+    check_command(argc, argv, app);
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version

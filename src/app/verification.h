@@ -11,9 +11,9 @@ namespace wisp {
 
 /// One compared number.
 struct VerificationRow {
-  std::string case_name;            ///< "h = 0.125, 4x4 points"
-  std::string quantity;             ///< "Newton iterations"
-  std::optional<double> published;  ///< absent where nothing is printed
+  std::string case_name{};            ///< "h = 0.125, 4x4 points"
+  std::string quantity{};             ///< "Newton iterations"
+  std::optional<double> published{};  ///< absent where nothing is printed
   double computed = 0.0;
   std::string reference = "published";  ///< "published", "exact" or "converged": what `expected` is
   std::optional<double> expected{};     ///< what `computed` is compared with; absent: the published value

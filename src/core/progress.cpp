@@ -76,7 +76,8 @@ void Progress::draw(double done, std::string_view remark) {
                                            : std::string("...");
   std::string text = fmt::format("{} [{}] {:3.0f} %  {}", label_, bar, 100.0 * done, left);
   if (!remark.empty()) text += fmt::format("  {}", remark);
-  const auto width = static_cast<std::size_t>(std::max(20, terminal_width(out_)));
+  const int columns = terminal_width(out_);
+  const auto width = static_cast<std::size_t>(columns > 0 ? columns : 120);
   if (text.size() >= width) text.resize(width - 1);  // a wrapped line could not be redrawn
   fmt::print(out_, "\r\x1b[2K{}", text);
   std::fflush(out_);

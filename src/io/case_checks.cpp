@@ -138,8 +138,9 @@ class Checks {
 
   void sampling(const BodyOptions& body, std::size_t i) {
     const std::string path = place("body", i, "sampling");
-    if (std::holds_alternative<PointFile>(body.shape) && context_.given(path))
-      context_.fail_at(path, "the points come from a file: there is nothing to sample");
+    for (const char* sampled : {"method", "points_per_cell", "divisions"})
+      if (std::holds_alternative<PointFile>(body.shape) && context_.given(path + "." + sampled))
+        context_.fail_at(path, "the points come from a file: there is nothing to sample");
     const bool divided = body.sampling.method == SamplingMethod::divisions;
     if (divided && body.sampling.divisions.empty())
       context_.fail_at(path, "method \"divisions\" needs the key 'divisions'");

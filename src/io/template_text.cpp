@@ -28,7 +28,7 @@ class TemplateWriter {
     const std::string name(key.rules.name);
     const std::string full = path.empty() ? name : path + "." + name;
     std::string value = sample_(full);
-    const bool absent = value.empty() && !key.rules.is_required && key.default_toml.empty();
+    const bool left_out = value.empty() && !key.rules.is_required;
     if (value.empty()) value = key.rules.is_required ? required_value(key) : key.default_toml;
     if (value.empty()) value = fallback(key);
     std::string remark = std::string(key.rules.meaning);
@@ -39,7 +39,7 @@ class TemplateWriter {
     if (!limits.empty()) remark += " [" + limits + "]";
     line(name + " = " + value + "  # " + remark +
              (key.value.find(", ") != std::string::npos ? ": " + key.value : ""),
-         commented || absent);
+         commented || left_out);
   }
 
   void table(const KeyText& key, const std::string& path, bool commented) {

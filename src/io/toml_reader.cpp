@@ -92,9 +92,11 @@ std::string range_text(const KeyRules& rules) {
 namespace reader {
 
 std::string expectation(const KeyRules& rules, std::string_view noun) {
+  const std::string range = range_text(rules);
   std::string text(noun);
-  if (const std::string range = range_text(rules); !range.empty()) text += " " + range;
-  if (!rules.unit.empty() && rules.unit != "-") text += fmt::format(" {}", rules.unit);
+  if (!range.empty()) text += " " + range;
+  if (!rules.unit.empty() && rules.unit != "-")
+    text += fmt::format("{} {}", range.empty() ? " in" : "", rules.unit);
   return text;
 }
 
@@ -259,6 +261,9 @@ int read_choice(const toml::node& node, const std::vector<std::string>& names, s
 
 int read_type(const toml::table& table, const std::vector<std::string>& names, const Context& context) {
   if (const toml::node* node = table.get("type")) return read_choice(*node, names, "type", context);
+  for (auto&& [name, node] : table)
+    if (edit_distance(name.str(), "type") == 1)
+      context.fail(name.source(), "", fmt::format("unknown key '{}'; did you mean 'type'?", name.str()));
   context.fail(table.source(), "", fmt::format("missing key 'type': expected one of {}", quoted(names)));
 }
 

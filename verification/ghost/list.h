@@ -11,6 +11,8 @@ std::vector<VerificationTable> block_tables();        ///< table 1, figures 3, 6
 std::vector<VerificationTable> translation_tables();  ///< table 2, figures 9, 10
 std::vector<VerificationTable> stretching_tables();   ///< figure 11
 std::vector<VerificationTable> collision_tables();    ///< figures 13, 14, 15, table 3
+std::vector<VerificationTable> column_tables();       ///< figure 16, table 4
+std::vector<VerificationTable> beam_tables();         ///< table 5, figures 18, 19
 
 /// All of them, in the paper's order.
 std::vector<VerificationTable> ghost_tables();
