@@ -2,10 +2,13 @@
 #include "app/bench.h"
 #include "app/launch.h"
 #include "app/program.h"
+#include "io/run.h"
 
 int main(int argc, char** argv) {
   wisp::use_one_blas_thread(argv);
   wisp::Engine engine;
   engine.bench = wisp::bench;
+  engine.run = [](const wisp::Case& c, const std::filesystem::path& folder) { wisp::run_case(c, folder); };
+  engine.resume = [](const std::filesystem::path& folder) { wisp::resume_run(folder); };
   return wisp::program(argc, argv, engine);
 }

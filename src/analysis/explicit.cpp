@@ -35,6 +35,11 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
 }
 
 template <int dim>
+void Explicit<dim>::renew_solver() {
+  solver_ = MassSolver(mass_solver_options(model_.options.solver));
+}
+
+template <int dim>
 double Explicit<dim>::time_step(double end) const {
   const double rest = end - model_.time;
   if (options_.dt) {
@@ -101,7 +106,7 @@ void Explicit<dim>::solve_velocity(std::vector<double>& velocity) {
     for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
       if (constraints.fixed[k])
         velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(model_.time, 0.0);
+            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(model_.time - dt_, dt_);
   };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -223,6 +228,15 @@ void Explicit<dim>::record_energy(EnergyRecord& record) const {
   record.external_work = model_.external_work;
 }
 
+template <int dim>
+void Explicit<dim>::measure(EnergyRecord& record) {
+  model_.settle();
+  gather(Gather::inertia);
+  if (consistent_) assemble_mass();
+  solve_velocity(velocity_);
+  record_energy(record);
+}
+
 /// Work of body forces and loads on the end-of-step velocity, and of prescribed motion against its reactions.
 template <int dim>
 void Explicit<dim>::add_work(double dt) {
@@ -250,6 +264,7 @@ void Explicit<dim>::points(const PointUpdate& update) {
 
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
+  dt_ = dt;
   const StressUpdate scheme = options_.stress_update;
   const bool pic = options_.velocity_update != VelocityUpdate::flip;
   PointUpdate update;

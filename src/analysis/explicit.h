@@ -23,6 +23,10 @@ class Explicit {
   /// Errors (RunError): mass solve failed, velocities not finite, points left the grid.
   void step(double dt, EnergyRecord* record = nullptr);
 
+  /// Energies of the present state, as the next step would record them before its forces are used.
+  /// Errors (RunError): mass solve failed.
+  void measure(EnergyRecord& record);
+
   /// Start-of-step velocity (n_functions x dim) and, for the consistent mass, the matrix with Ghost of the
   /// last step.
   std::span<const double> start_velocity() const { return velocity_; }
@@ -30,6 +34,8 @@ class Explicit {
   /// Warm starts that a resumed run needs for the same bits.
   std::vector<double>& warm_acceleration() { return acceleration_; }
   std::vector<double>& warm_velocity() { return velocity_; }
+  /// Drops what the solver keeps between steps, as in a run that starts here.
+  void renew_solver();
 
  private:
   void gather(Gather what);
@@ -45,6 +51,7 @@ class Explicit {
   Model<dim>& model_;
   ExplicitOptions options_;
   bool consistent_;
+  double dt_ = 0.0;  // of the running step
   // Arrays over functions; see explicit_transfer.h for the records.
   std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_;
   BlockMatrix mass_{1};

@@ -66,6 +66,12 @@ Implicit<dim>::Implicit(Model<dim>& model, const ImplicitDynamicOptions& o)
     model_.timers.part(name);
 }
 
+template <int dim>
+void Implicit<dim>::renew_solver() {
+  solver_ = LinearSolver(model_.options.solver);
+  solver_.set_traits({dim, false, {}});
+}
+
 /// Everything that stays the same in a step: stencils, active functions, numbering, Ghost matrix, external
 /// forces.
 template <int dim>
@@ -98,7 +104,7 @@ void Implicit<dim>::set_up(double dt) {
     mass_.share_pattern(ghost_);
     add_consistent_mass(space, model_.bodies, mass_);
     if (options) add_ghost(space, facets, *options, GhostMatrix::mass, mass_);
-    start_inertia();
+    start_inertia(dt);
   }
   dofs_ = DofMap(
       space.nodes(), dim, active_,
@@ -133,7 +139,7 @@ void Implicit<dim>::external_force(double t, std::vector<double>& force) const {
 /// Velocity and acceleration of the functions at the start of the step, from the points' by the consistent
 /// mass.
 template <int dim>
-void Implicit<dim>::start_inertia() {
+void Implicit<dim>::start_inertia(double dt) {
   const auto& space = *model_.space;
   const auto n = static_cast<std::size_t>(space.n_functions());
   MassSolver solver;
@@ -161,7 +167,7 @@ void Implicit<dim>::start_inertia() {
   };
   map(
       [](const auto& points) -> const auto& { return points.velocity; }, velocity_,
-      [&](const auto& condition) { return condition.velocity(model_.time, 0.0); });
+      [&](const auto& condition) { return condition.velocity(model_.time - dt, dt); });
   map(
       [](const auto& points) -> const auto& { return points.acceleration; }, acceleration_,
       [](const auto&) { return 0.0; });

@@ -31,6 +31,9 @@ class Implicit {
   /// One step, halved up to `cuts` times where Newton fails. Errors (RunError): it fails all the same.
   ImplicitRecord step(double dt, EnergyRecord* record = nullptr);
 
+  /// Drops what the solver keeps between steps, as in a run that starts here.
+  void renew_solver();
+
   /// The tangent of the last Newton iteration with Ghost, over all local functions, and its free unknowns.
   const BlockMatrix& stiffness() const { return stiffness_; }
   const DofMap& unknowns() const { return dofs_; }
@@ -43,7 +46,7 @@ class Implicit {
   NewtonReport attempt(double dt);
   void set_up(double dt);
   void external_force(double t, std::vector<double>& force) const;
-  void start_inertia();
+  void start_inertia(double dt);
   double residual(std::span<const double> u, double dt);
   std::string correct(std::span<double> du, std::span<const double> u, double dt);
   void finish(std::span<const double> u, double dt);

@@ -184,20 +184,21 @@ void Model<dim>::choose_width() {
 }
 
 template <int dim>
-void Model<dim>::rebalance() {
-  if (Session::size() == 1) return;
+bool Model<dim>::rebalance() {
+  if (Session::size() == 1) return false;
   std::int64_t n = 0;
   for (const auto& body : bodies) n += body.points.size();
-  if (imbalance(n) <= 1.1) return;
+  if (imbalance(n) <= 1.1) return false;
   const StructuredGrid<dim> grid = space->grid();
   std::vector<MultiIndex<dim>> cells;
   for (const auto& body : bodies)
     for (const auto& x : body.points.position) cells.push_back(cell_of(grid, x));
   const BoxPartition<dim> partition(grid.cells(), cells);
-  if (partition == space->partition()) return;
+  if (partition == space->partition()) return false;
   make_space(partition);
   migrate();
   settle();
+  return true;
 }
 
 template <int dim>

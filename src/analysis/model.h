@@ -63,11 +63,14 @@ struct Model {
   /// stop; domains too large.
   void settle();
   /// Splits the grid anew when the imbalance of points passes 10 %. Collective; between steps only.
-  void rebalance();
+  /// Whether it was split anew: arrays over functions are then those of another window.
+  bool rebalance();
+  /// Splits the grid in the given way. Points stay where they are: see `keep_owned`, `settle`.
+  void make_space(const BoxPartition<dim>& partition);
+  /// Of points that every rank has, keeps those of this rank's cells, in cell order.
+  void keep_owned();
 
  private:
-  void make_space(const BoxPartition<dim>& partition);
-  void keep_owned();
   void remove_outside(std::size_t outside);
   void migrate();
   void choose_width();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "core/error.h"
 
@@ -175,6 +176,32 @@ void BlockMatrix::row_sums(std::span<double> out) const {
         for (std::size_t d = 0; d < b; ++d) sum += values_[(k * b + c) * b + d];
       out[at(f) * b + c] = sum;
     }
+}
+
+bool BlockMatrix::symmetric() const {
+  constexpr double tolerance = 1e-13;
+  const auto starts = pattern_->starts();
+  const auto columns = pattern_->columns();
+  const auto b = at(block_);
+  std::vector<double> root(at(n_local()) * b);
+  diagonal(root);
+  for (double& d : root) d = std::sqrt(std::abs(d));
+  // Rows come in increasing order, so the entries (g, f) of a row g are met in the order of its columns.
+  std::vector<int> next(starts.begin(), starts.end() - 1);
+  for (int f = 0; f < n_local(); ++f)
+    for (int k = starts[at(f)]; k < starts[at(f) + 1]; ++k) {
+      const int g = columns[at(k)];
+      const int transpose = next[at(g)]++;
+      if (g < f) continue;
+      const double* a = values_.data() + at(k) * b * b;
+      const double* t = values_.data() + at(transpose) * b * b;
+      for (std::size_t c = 0; c < b; ++c)
+        for (std::size_t d = 0; d < b; ++d)
+          if (!(std::abs(a[c * b + d] - t[d * b + c]) <=
+                tolerance * root[at(f) * b + c] * root[at(g) * b + d]))
+            return false;
+    }
+  return true;
 }
 
 double BlockMatrix::entry(int f, int c, int g, int d) const {

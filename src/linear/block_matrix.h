@@ -52,6 +52,8 @@ class BlockMatrix {
   void diagonal(std::span<double> out) const;
   /// Sums of rows, n_local*b: for a scalar matrix its lumped diagonal.
   void row_sums(std::span<double> out) const;
+  /// |a_ij - a_ji| <= 1e-13 sqrt(|a_ii a_jj|) for all entries, so up to the rounding of their assembly.
+  bool symmetric() const;
   /// Entry ((f, c), (g, d)), zero outside the pattern.
   double entry(int f, int c, int g, int d) const;
 

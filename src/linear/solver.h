@@ -48,8 +48,8 @@ struct SolverOptions {
 /// What is known of a matrix beyond its entries.
 struct MatrixTraits {
   int dim = 2;  ///< space dimension: direct solvers fill in faster in 3D
-  bool symmetric =
-      false;  ///< L D L^T and conjugate gradients (then also positive definite), not LU and GMRES
+  /// Symmetric positive definite: conjugate gradients, otherwise GMRES. A direct solver sees symmetry itself.
+  bool symmetric = false;
   /// Coordinates of this rank's unknowns, n_owned/components x dim, for multigrid's rigid-body modes; only
   /// used when the numbering keeps whole blocks (FixedUnknowns::unit_rows). May be empty.
   std::vector<double> coordinates;
@@ -96,6 +96,7 @@ class LinearSolver {
   SolveReport solve_once(const SystemMatrix& matrix, std::span<const double> b, std::span<double> x,
                          bool keep);
   bool goes_direct(int n_unknowns) const;
+  bool takes_as_symmetric(const SystemMatrix& matrix) const;
   void set_up(const SystemMatrix& matrix);
   void choose_direct(KSP ksp);
   void choose_iterative(KSP ksp, ::Mat mat);
@@ -104,6 +105,7 @@ class LinearSolver {
   SolverOptions options_;
   MatrixTraits traits_;
   bool direct_ = false;
+  bool symmetric_ = false;  // of the factorisation
   bool iteration_failed_ = false;
   std::int64_t structure_ = 0;
   OwnedKsp ksp_;

@@ -30,6 +30,9 @@ void SystemMatrix::assign(const BlockMatrix& local, const DofMap& dofs) {
   int changed = !mat_ || pattern_id_ != local.pattern_id() || block_ != local.block() || !(dofs_ == dofs);
   if (!dofs.serial()) MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, dofs.comm());
   if (changed) make_structure(local, dofs);
+  int symmetric = local.symmetric();
+  if (!dofs.serial()) MPI_Allreduce(MPI_IN_PLACE, &symmetric, 1, MPI_INT, MPI_MIN, dofs.comm());
+  symmetric_ = symmetric != 0;
   copy_values(local);
 }
 

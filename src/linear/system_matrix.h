@@ -20,6 +20,9 @@ class SystemMatrix {
   void assign(const BlockMatrix& local, const DofMap& dofs);
 
   ::Mat mat() const { return mat_.get(); }
+  /// Whether the values last assigned are symmetric up to the rounding of their assembly
+  /// (BlockMatrix::symmetric), on all ranks.
+  bool symmetric() const { return symmetric_; }
   /// Changes whenever the PETSc matrix is a new object.
   std::int64_t structure() const { return structure_; }
 
@@ -34,6 +37,7 @@ class SystemMatrix {
   std::int64_t structure_ = 0;
   std::int64_t pattern_id_ = 0;
   int block_ = 0;
+  bool symmetric_ = false;
   // Entry k takes value sources_[k] of the block matrix; -1: zero, -2: one (unit row).
   std::vector<PetscInt> rows_;
   std::vector<PetscInt> columns_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 
@@ -127,8 +128,11 @@ void BoxPartition<dim>::cut(const Open& open, const std::int64_t* histogram, std
   }
   if (chosen.direction < 0)
     input_error("{} cells cannot be split into {} boxes: use fewer ranks", open.box.count(), open.n);
-  const int d = chosen.direction;
-  const int position = open.box.lower[d] + chosen.position;
+  split(open, chosen.direction, open.box.lower[chosen.direction] + chosen.position, below, next);
+}
+
+template <int dim>
+void BoxPartition<dim>::split(const Open& open, int d, int position, int below, std::vector<Open>& next) {
   const int child = static_cast<int>(tree_.size());
   Cut& node = tree_[static_cast<std::size_t>(open.node)];
   node = {d, position, child, child + 1, 0};
@@ -139,6 +143,38 @@ void BoxPartition<dim>::cut(const Open& open, const std::int64_t* histogram, std
   upper.lower[d] = position;
   next.push_back({lower, open.first, below, child});
   next.push_back({upper, open.first + below, open.n - below, child + 1});
+}
+
+template <int dim>
+BoxPartition<dim>::BoxPartition(const MultiIndex<dim>& n_cells, std::vector<IndexBox<dim>> boxes)
+    : n_cells_(n_cells), boxes_(std::move(boxes)), tree_(1) {
+  std::vector<Open> open{{{MultiIndex<dim>::Zero(), n_cells}, 0, n_parts(), 0}};
+  while (!open.empty()) {
+    const Open last = open.back();
+    open.pop_back();
+    find_cut(last, open);
+  }
+}
+
+/// The cut of a given split: the first half of the parts of a box lies below it, the other half above.
+template <int dim>
+void BoxPartition<dim>::find_cut(const Open& open, std::vector<Open>& next) {
+  if (open.n == 1) {
+    tree_[static_cast<std::size_t>(open.node)].part = open.first;
+    if (!(box(open.first) == open.box)) input_error("the boxes of the ranks do not cover the grid");
+    return;
+  }
+  const int below = open.n / 2;
+  for (int d = 0; d < dim; ++d) {
+    int end = open.box.lower[d], start = open.box.upper[d];
+    for (int part = open.first; part < open.first + open.n; ++part)
+      if (part < open.first + below)
+        end = std::max(end, box(part).upper[d]);
+      else
+        start = std::min(start, box(part).lower[d]);
+    if (end == start) return split(open, d, end, below, next);
+  }
+  input_error("the boxes of the ranks cannot be told apart by cuts through the grid");
 }
 
 template class BoxPartition<1>;

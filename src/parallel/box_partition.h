@@ -24,6 +24,9 @@ class BoxPartition {
   /// @throws InputError if the grid has fewer cells than parts, RunError if a point lies outside
   BoxPartition(const MultiIndex<dim>& n_cells, std::span<const MultiIndex<dim>> cells_of_points,
                int n_parts = Session::size());
+  /// A split that was in force before (of a stopped run).
+  /// @throws InputError if the boxes are not one such split of the grid
+  BoxPartition(const MultiIndex<dim>& n_cells, std::vector<IndexBox<dim>> boxes);
 
   [[nodiscard]] int n_parts() const { return static_cast<int>(boxes_.size()); }
   [[nodiscard]] const MultiIndex<dim>& n_cells() const { return n_cells_; }
@@ -60,6 +63,8 @@ class BoxPartition {
     int first = 0, n = 1, node = 0;
   };
   void cut(const Open& open, const std::int64_t* histogram, std::vector<Open>& next);
+  void find_cut(const Open& open, std::vector<Open>& next);
+  void split(const Open& open, int direction, int position, int below, std::vector<Open>& next);
 
   MultiIndex<dim> n_cells_;
   std::vector<IndexBox<dim>> boxes_;

@@ -74,24 +74,64 @@ int add_internal_force(const StoredStencils<dim>& stencils, Body<dim>& body, std
 
 namespace {
 
-/// dense += V grad^T c grad for one point: g holds the gradients as columns (dim x n).
-template <int dim>
-void add_point_stiffness(const Tangent<dim>& c,
-                         const Eigen::Matrix<double, dim, Eigen::Dynamic, Eigen::ColMajor, dim, 125>& g,
-                         double* dense) {
-  const int n = static_cast<int>(g.cols());
-  const int rows = n * dim;
-  for (int b = 0; b < n; ++b) {
-    // t(i*dim + j, k) = sum_l c_ijkl g_l(b)
-    Eigen::Matrix<double, dim * dim, dim> t;
-    for (int k = 0; k < dim; ++k) t.col(k) = c.template middleCols<dim>(k * dim) * g.col(b);
-    for (int a = 0; a < n; ++a)
-      for (int i = 0; i < dim; ++i) {
-        const Eigen::Matrix<double, 1, dim> row = g.col(a).transpose() * t.template middleRows<dim>(i * dim);
-        double* const out = dense + (a * dim + i) * rows + b * dim;
-        for (int k = 0; k < dim; ++k) out[k] += row[k];
-      }
+/// dense[i][k][a][b] += sum_jl g_j(a) c_ijkl g_l(b) for one point; `g` holds component j of all gradients
+/// side by side, so that the innermost loops run over contiguous functions.
+template <int dim, int n>
+void add_point_stiffness(const Tangent<dim>& c, const double (&g)[dim][n], double* dense) {
+  for (int i = 0; i < dim; ++i)
+    for (int k = 0; k < dim; ++k) {
+      double t[dim][n];
+      for (int j = 0; j < dim; ++j)
+        for (int b = 0; b < n; ++b) {
+          double sum = 0.0;
+          for (int l = 0; l < dim; ++l) sum += c(i * dim + j, k * dim + l) * g[l][b];
+          t[j][b] = sum;
+        }
+      double* const block = dense + (i * dim + k) * n * n;
+      for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b) {
+          double sum = 0.0;
+          for (int j = 0; j < dim; ++j) sum += g[j][a] * t[j][b];
+          block[a * n + b] += sum;
+        }
+    }
+}
+
+template <int dim, int n, class Group>
+void add_group_stiffness(const StoredStencils<dim>& stencils, const Group& group,
+                         const std::vector<double>& volume, const double* u, double dt,
+                         BlockMatrix& stiffness) {
+  using Law = std::decay_t<decltype(group.law)>;
+  const Law law = group.law;
+  StencilBlocks blocks(n, dim, n > 27 ? 4 : 16);
+  std::vector<double> interleaved(static_cast<std::size_t>(n * dim) * n * dim);
+  const auto flush = [&](std::span<const int> functions, const double* dense) {
+    for (int i = 0; i < dim; ++i)
+      for (int k = 0; k < dim; ++k)
+        for (int a = 0; a < n; ++a)
+          for (int b = 0; b < n; ++b)
+            interleaved[static_cast<std::size_t>((a * dim + i) * n * dim + b * dim + k)] =
+                dense[((i * dim + k) * n + a) * n + b];
+    stiffness.add(functions, interleaved.data());
+  };
+  for (std::size_t p = 0; p < group.old.size(); ++p) {
+    const Kinematics<dim> kinematics{increment<dim>(stencils, p, u), dt};
+    Tangent<dim> c;
+    law.template tangent<dim>(kinematics, group.old[p], group.now[p], c);
+    c *= volume[p];
+    Mat<dim> push = Mat<dim>::Identity();
+    if constexpr (Law::finite_strain) push = kinematics.dF.inverse().transpose();
+    double g[dim][n];
+    for (int k = 0; k < n; ++k) {
+      const Vec<dim> gradient = push * stencils.dphi[p * n + static_cast<std::size_t>(k)];
+      for (int d = 0; d < dim; ++d) g[d][k] = gradient[d];
+    }
+    const auto functions = [&](int* out) {
+      std::copy_n(stencils.function.begin() + static_cast<std::ptrdiff_t>(p) * n, n, out);
+    };
+    add_point_stiffness<dim, n>(c, g, blocks.find(stencils.key[p], functions, flush));
   }
+  blocks.finish(flush);
 }
 
 }  // namespace
@@ -101,30 +141,14 @@ void add_stiffness(const StoredStencils<dim>& stencils, const Body<dim>& body, s
                    double dt, BlockMatrix& stiffness) {
   std::visit(
       [&](const auto& group) {
-        using Law = std::decay_t<decltype(group.law)>;
-        const auto n = static_cast<std::size_t>(stencils.n);
-        StencilBlocks blocks(stencils.n, dim, stencils.n > 27 ? 4 : 16);
-        const auto flush = [&](std::span<const int> functions, const double* dense) {
-          stiffness.add(functions, dense);
+        const auto add = [&]<int width>(std::integral_constant<int, width>) {
+          constexpr int n = dim == 2 ? width * width : width * width * width;
+          if (stencils.n == n)
+            add_group_stiffness<dim, n>(stencils, group, body.points.volume, u.data(), dt, stiffness);
         };
-        Eigen::Matrix<double, dim, Eigen::Dynamic, Eigen::ColMajor, dim, 125> g(dim, stencils.n);
-        for (std::size_t p = 0; p < group.old.size(); ++p) {
-          const Kinematics<dim> kinematics{increment<dim>(stencils, p, u.data()), dt};
-          Tangent<dim> c;
-          group.law.template tangent<dim>(kinematics, group.old[p], group.now[p], c);
-          c *= body.points.volume[p];
-          Mat<dim> push = Mat<dim>::Identity();
-          if constexpr (Law::finite_strain) push = kinematics.dF.inverse().transpose();
-          for (std::size_t k = 0; k < n; ++k) g.col(static_cast<int>(k)) = push * stencils.dphi[p * n + k];
-          double* const dense = blocks.find(
-              stencils.key[p],
-              [&](int* functions) {
-                std::copy_n(stencils.function.begin() + static_cast<std::ptrdiff_t>(p * n), n, functions);
-              },
-              flush);
-          add_point_stiffness<dim>(c, g, dense);
-        }
-        blocks.finish(flush);
+        add(std::integral_constant<int, 2>());
+        add(std::integral_constant<int, 3>());
+        add(std::integral_constant<int, 5>());
       },
       body.material);
 }

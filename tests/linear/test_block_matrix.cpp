@@ -142,6 +142,25 @@ TEST(BlockMatrix, keeps_an_unchanged_pattern_and_the_petsc_matrix_over_it) {
   EXPECT_NE(s.sparse.pattern_id(), id);
 }
 
+TEST(BlockMatrix, tells_symmetry_from_a_rounding_error) {
+  Sample s(12, 2, false);
+  EXPECT_FALSE(s.sparse.symmetric());
+  BlockMatrix a(2);
+  a.share_pattern(s.sparse);
+  std::vector<double> element(64);
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t j = 0; j < 8; ++j)
+      element[i * 8 + j] = i == j ? 20.0 : 1.0 / static_cast<double>(i + j + 1);
+  for (const auto& e : s.elements) a.add(e, element.data());
+  EXPECT_TRUE(a.symmetric());
+  const auto entry = static_cast<std::size_t>(a.pattern().find(4, 5)) * 4 + 1;
+  const double value = a.values()[entry];
+  a.values()[entry] = value + 1e-15;
+  EXPECT_TRUE(a.symmetric());
+  a.values()[entry] = value + 1e-9;
+  EXPECT_FALSE(a.symmetric());
+}
+
 TEST(BlockMatrix, says_which_entry_a_pattern_lacks) {
   Sample s(9, 1, false);
   const double element[4] = {1, 2, 3, 4};

@@ -160,6 +160,24 @@ TEST(LinearSolver, follows_values_that_change_and_keeps_a_factorisation_when_tol
   for (std::size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(z[i], 0.5 * x[i], 1e-12);
 }
 
+TEST(LinearSolver, sees_symmetry_come_and_go) {
+  Problem p(10, 2, 0.3);
+  const BlockMatrix skew = laplacian(10, 2, 0.3, 0.4);
+  LinearSolver solver;
+  std::vector<double> x(p.rhs.size(), 0.0);
+  for (int round = 0; round < 4; ++round) {
+    BlockMatrix a = p.a;  // the same pattern
+    if (round % 2 == 1) std::copy(skew.values().begin(), skew.values().end(), a.values().begin());
+    EXPECT_EQ(a.symmetric(), round % 2 == 0);
+    a.multiply(p.exact, p.rhs);
+    p.system.assign(a, p.dofs);
+    EXPECT_EQ(p.system.symmetric(), round % 2 == 0);
+    const auto report = solver.solve(p.system, p.dofs, p.halo, p.rhs, x);
+    EXPECT_TRUE(report.solved) << report.cause;
+    EXPECT_LT(p.error(x), 1e-11);
+  }
+}
+
 TEST(LinearSolver, repeats_itself_bit_by_bit) {
   const Problem p(15, 2, 0.1);
   for (const auto kind : {SolverKind::direct, SolverKind::iterative}) {

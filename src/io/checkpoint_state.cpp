@@ -1,0 +1,176 @@
+#include "io/checkpoint_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace wisp {
+namespace {
+
+/// Small tensors and material states are plain bytes here, though Eigen's types do not say so themselves.
+template <class T>
+concept Plain = std::is_trivially_destructible_v<T> && std::is_standard_layout_v<T>;
+
+template <class T>
+inline constexpr bool made_of_doubles = false;
+template <int rows, int columns>
+inline constexpr bool made_of_doubles<Eigen::Matrix<double, rows, columns>> = true;
+template <>
+inline constexpr bool made_of_doubles<double> = true;
+
+template <Plain T>
+void set(Checkpoint& checkpoint, const std::string& name, const std::vector<T>& values) {
+  const void* const from = values.data();
+  const std::size_t bytes = values.size() * sizeof(T);
+  const auto copy = [&](auto array) {
+    if (bytes > 0) std::memcpy(static_cast<void*>(array.data()), from, bytes);
+    checkpoint.set(name, std::move(array));
+  };
+  if constexpr (made_of_doubles<T>)
+    copy(Checkpoint::Doubles(bytes / sizeof(double)));
+  else if constexpr (std::is_same_v<T, std::int64_t>)
+    checkpoint.set(name, values);
+  else
+    copy(Checkpoint::Bytes(bytes));
+}
+
+template <Plain T>
+void append(const Checkpoint& checkpoint, const std::string& name, std::vector<T>& values) {
+  const auto copy = [&](const auto& array) {
+    const std::size_t bytes = array.size() * sizeof(array.front()), before = values.size();
+    if (bytes % sizeof(T) != 0)
+      input_error("checkpoint: \"{}\" has {} bytes, expected a multiple of {}", name, bytes, sizeof(T));
+    values.resize(before + bytes / sizeof(T));
+    if (bytes > 0) std::memcpy(static_cast<void*>(values.data() + before), array.data(), bytes);
+  };
+  if constexpr (made_of_doubles<T>)
+    copy(checkpoint.doubles(name));
+  else if constexpr (std::is_same_v<T, std::int64_t>)
+    copy(checkpoint.integers(name));
+  else
+    copy(checkpoint.bytes(name));
+}
+
+std::string field_name(std::size_t body, std::string_view field) {
+  return fmt::format("body {} {}", body, field);
+}
+std::string traction_name(std::size_t traction, const char* field) {
+  return fmt::format("traction {} {}", traction, field);
+}
+
+/// Points of one part, behind those that are there already.
+template <int dim>
+void append_points(const Checkpoint& part, Model<dim>& model) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    Body<dim>& body = model.bodies[b];
+    body.for_each_field(
+        [&](std::string_view name, auto& field) { append(part, field_name(b, name), field); });
+    const std::size_t n = body.points.position.size();
+    body.for_each_field([&](std::string_view name, auto& field) {
+      if (field.size() != n && !field.empty())
+        input_error("checkpoint: field '{}' of body '{}' has {} entries, expected {}", name, body.name,
+                    field.size(), n);
+    });
+  }
+}
+
+template <int dim>
+void clear_points(Model<dim>& model) {
+  for (auto& body : model.bodies) {
+    body.for_each_field([](std::string_view, auto& field) { field.clear(); });
+    body.points.cell.clear();
+  }
+}
+
+/// What all ranks have alike.
+template <int dim>
+void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
+  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
+    auto& traction = model.tractions[k];
+    const auto size = static_cast<std::size_t>(traction.size());
+    traction.positions().clear(), traction.deformation_gradients().clear();
+    append(checkpoint, traction_name(k, "position"), traction.positions());
+    append(checkpoint, traction_name(k, "deformation_gradient"), traction.deformation_gradients());
+    if (traction.positions().size() != size || traction.deformation_gradients().size() != size)
+      input_error("checkpoint: traction '{}' has {} surface points, expected {}", traction.name(),
+                  traction.positions().size(), size);
+  }
+  model.reactions.clear();
+  append(checkpoint, "reactions", model.reactions);
+  if (model.reactions.size() != model.conditions.size())
+    input_error("checkpoint: reactions of {} conditions, expected {}", model.reactions.size(),
+                model.conditions.size());
+  model.step = checkpoint.step;
+  model.time = checkpoint.time;
+  model.external_work = checkpoint.number("external_work");
+  model.removed = checkpoint.integer("removed");
+}
+
+}  // namespace
+
+template <int dim>
+void store(Model<dim>& model, Checkpoint& checkpoint) {
+  checkpoint.step = model.step;
+  checkpoint.time = model.time;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    model.bodies[b].for_each_field(
+        [&](std::string_view name, const auto& field) { set(checkpoint, field_name(b, name), field); });
+  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
+    set(checkpoint, traction_name(k, "position"), model.tractions[k].positions());
+    set(checkpoint, traction_name(k, "deformation_gradient"), model.tractions[k].deformation_gradients());
+  }
+  set(checkpoint, "reactions", model.reactions);
+  checkpoint.set_number("external_work", model.external_work);
+  checkpoint.set_integer("removed", model.removed);
+  const auto& partition = model.space->partition();
+  Checkpoint::Integers boxes;
+  for (int part = 0; part < partition.n_parts(); ++part)
+    for (const auto& corner : {partition.box(part).lower, partition.box(part).upper})
+      boxes.insert(boxes.end(), corner.data(), corner.data() + dim);
+  checkpoint.set("boxes", std::move(boxes));
+}
+
+template <int dim>
+void restore(const Checkpoint& checkpoint, Model<dim>& model) {
+  const auto ranks = static_cast<std::size_t>(Session::size());
+  const auto& numbers = checkpoint.integers("boxes", ranks * 2 * dim);
+  std::vector<IndexBox<dim>> boxes(ranks);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    auto& box = boxes[k / (2 * dim)];
+    (k % (2 * dim) < dim ? box.lower : box.upper)[static_cast<int>(k % dim)] = static_cast<int>(numbers[k]);
+  }
+  model.make_space(BoxPartition<dim>(model.space->grid().cells(), std::move(boxes)));
+  clear_points(model);
+  append_points(checkpoint, model);
+  restore_common(checkpoint, model);
+}
+
+template <int dim>
+void restore_parts(const std::vector<Checkpoint>& parts, Model<dim>& model) {
+  clear_points(model);
+  for (const auto& part : parts) append_points(part, model);
+  const StructuredGrid<dim> grid = model.space->grid();
+  std::vector<MultiIndex<dim>> cells;
+  const auto ranks = static_cast<std::size_t>(Session::size());
+  for (const auto& body : model.bodies)
+    for (std::size_t p = static_cast<std::size_t>(Session::rank()); p < body.points.position.size();
+         p += ranks) {
+      MultiIndex<dim> cell;
+      for (int d = 0; d < dim; ++d)
+        cell[d] = std::clamp(grid.locate_inside(d, body.points.position[p][d]), 0, grid.cells(d) - 1);
+      cells.push_back(cell);
+    }
+  model.make_space(BoxPartition<dim>(grid.cells(), cells));
+  restore_common(parts.front(), model);
+  model.keep_owned();
+}
+
+template void store<2>(Model<2>&, Checkpoint&);
+template void store<3>(Model<3>&, Checkpoint&);
+template void restore<2>(const Checkpoint&, Model<2>&);
+template void restore<3>(const Checkpoint&, Model<3>&);
+template void restore_parts<2>(const std::vector<Checkpoint>&, Model<2>&);
+template void restore_parts<3>(const std::vector<Checkpoint>&, Model<3>&);
+
+}  // namespace wisp

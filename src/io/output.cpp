@@ -1,0 +1,246 @@
+#include "io/output.h"
+
+#include <cmath>
+#include <limits>
+
+#include "grid/structured.h"
+
+namespace wisp {
+namespace {
+
+/// A field of one entry a point over all bodies; `f(body, p, out)` writes `components` numbers.
+template <int dim, class F>
+VtuField field(const Model<dim>& model, std::string name, int components, std::string unit, F&& f) {
+  std::vector<double> values;
+  std::vector<double> one(static_cast<std::size_t>(components));
+  for (const auto& body : model.bodies)
+    for (std::size_t p = 0; p < body.points.position.size(); ++p) {
+      f(body, p, one.data());
+      values.insert(values.end(), one.begin(), one.end());
+    }
+  return {std::move(name), components, std::move(values), std::move(unit), {}};
+}
+
+/// Vectors have three components, as VTK expects of them.
+template <int dim, class Get>
+VtuField vector_field(const Model<dim>& model, std::string name, std::string unit, Get&& get) {
+  return field(model, std::move(name), 3, std::move(unit),
+               [&](const Body<dim>& body, std::size_t p, double* out) {
+                 std::fill(out, out + 3, 0.0);
+                 const Vec<dim>& v = get(body.points)[p];
+                 std::copy(v.data(), v.data() + dim, out);
+               });
+}
+
+template <class F>
+VtuField integer_field(std::string name, std::size_t n, F&& fill) {
+  std::vector<std::int64_t> values;
+  values.reserve(n);
+  fill(values);
+  return {std::move(name), 1, std::move(values), {}, {}};
+}
+
+/// Fields that come out of the material states.
+template <int dim>
+void add_state_fields(const Model<dim>& model, std::size_t n, std::vector<VtuField>& fields) {
+  constexpr int components = sym_size<dim>;
+  std::vector<double> stress, plastic;
+  stress.reserve(n * components), plastic.reserve(n);
+  for (const auto& body : model.bodies) {
+    const bool finite = body.finite_strain();
+    for_each_state(body, [&](int p, const auto& law, const auto& state) {
+      const double J =
+          finite ? body.points.deformation_gradient[static_cast<std::size_t>(p)].determinant() : 1.0;
+      for (int a = 0; a < components; ++a) stress.push_back(state.stress[a] / J);
+      plastic.push_back(law.template plastic_strain<dim>(state));
+    });
+  }
+  std::vector<std::string> names{"xx", "yy", "zz", "xy", "yz", "zx"};
+  names.resize(components);
+  fields.push_back({"stress", components, std::move(stress), "Pa", std::move(names)});
+  fields.push_back({"plastic_strain", 1, std::move(plastic), "-", {}});
+}
+
+}  // namespace
+
+template <int dim>
+VtuPoints picture(const Model<dim>& model) {
+  using P = Particles<dim>;
+  std::size_t n = 0;
+  for (const auto& body : model.bodies) n += body.points.position.size();
+  const std::string per_thickness = dim == 2 ? "/m" : "";
+  VtuPoints result;
+  result.positions =
+      std::get<std::vector<double>>(vector_field(
+                                        model, "", "", [](const P& p) -> const auto& { return p.position; })
+                                        .values);
+  auto& fields = result.fields;
+  fields.push_back(integer_field("id", n, [&](auto& values) {
+    for (const auto& body : model.bodies)
+      values.insert(values.end(), body.points.id.begin(), body.points.id.end());
+  }));
+  fields.push_back(integer_field("body", n, [&](auto& values) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      values.insert(values.end(), model.bodies[b].points.position.size(), static_cast<std::int64_t>(b));
+  }));
+  fields.push_back(vector_field(
+      model, "displacement", "m", [](const P& p) -> const auto& { return p.displacement; }));
+  fields.push_back(vector_field(
+      model, "velocity", "m/s", [](const P& p) -> const auto& { return p.velocity; }));
+  add_state_fields(model, n, fields);
+  fields.push_back(field(model, "mass", 1, "kg" + per_thickness,
+                         [](const auto& body, std::size_t p, double* out) { *out = body.points.mass[p]; }));
+  fields.push_back(
+      field(model, "volume", 1, dim == 2 ? "m^2" : "m^3", [](const auto& body, std::size_t p, double* out) {
+        *out = body.points.volume[p] * body.points.deformation_gradient[p].determinant();
+      }));
+  if (model.space->domains()) {
+    fields.push_back(vector_field(
+        model, "half_lengths", "m", [](const P& p) -> const auto& { return p.half_length; }));
+    fields.push_back(vector_field(
+        model, "initial_half_lengths", "m", [](const P& p) -> const auto& { return p.initial_half_length; }));
+  } else {
+    fields.push_back(
+        field(model, "initial_volume", 1, dim == 2 ? "m^2" : "m^3",
+              [](const auto& body, std::size_t p, double* out) { *out = body.points.volume[p]; }));
+  }
+  fields.push_back(
+      field(model, "deformation_gradient", dim * dim, "-", [](const auto& body, std::size_t p, double* out) {
+        const Mat<dim>& F = body.points.deformation_gradient[p];
+        for (int i = 0; i < dim; ++i)
+          for (int j = 0; j < dim; ++j) out[i * dim + j] = F(i, j);
+      }));
+  result.globals.push_back({"TimeValue", 1, std::vector<double>{model.time}, "s", {}});
+  result.globals.push_back({"step", 1, std::vector<std::int64_t>{model.step}, {}, {}});
+  return result;
+}
+
+namespace {
+
+std::string json_text(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      out += fmt::format("\\u{:04x}", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+template <int dim>
+std::string grid_json(const StructuredGridOptions& options) {
+  const StructuredGrid<dim> grid(options);
+  std::string text;
+  for (int d = 0; d < dim; ++d) {
+    text += d ? ",\n  [" : "\n  [";
+    for (int i = 0; i <= grid.cells(d); ++i) text += fmt::format("{}{}", i ? ", " : "", grid.line(d, i));
+    text += "]";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string scene_json(const Case& c) {
+  return fmt::format("{{\"title\": {},\n \"grid\": {{\"coordinates\": [{}]}}}}\n", json_text(c.title),
+                     c.dimension == 2 ? grid_json<2>(c.grid) : grid_json<3>(c.grid));
+}
+
+template <int dim>
+HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : output_(c.output) {
+  const std::string per = dim == 2 ? "/m" : "";
+  titles_ = {"stage", "dt [s]"};
+  if (output_.energies)
+    for (const char* name :
+         {"kinetic energy", "strain energy", "dissipation", "external work", "total energy", "balance error"})
+      titles_.push_back(fmt::format("{} [J{}]", name, per));
+  // Names are free text; commas and quotes would break the table.
+  const auto plain = [](std::string name) {
+    for (char& letter : name)
+      if (letter == ',' || letter == '"' || letter == '\n' || letter == '\r') letter = ' ';
+    return name;
+  };
+  held_.resize(model.conditions.size());
+  for (std::size_t k = 0; k < model.conditions.size() && output_.reactions; ++k)
+    for (int d = 0; d < dim; ++d) {
+      if (!model.conditions[k].holds(d)) continue;
+      held_[k].push_back(d);
+      titles_.push_back(
+          fmt::format("reaction {} {} [N{}]", plain(model.conditions[k].name()), "xyz"[d], per));
+    }
+  for (const auto& track : output_.track)
+    for (const auto& [what, unit] : {std::pair{"position", "m"}, {"displacement", "m"}, {"velocity", "m/s"}})
+      for (int d = 0; d < dim; ++d)
+        titles_.push_back(fmt::format("{} {} {} [{}]", plain(track.label), what, "xyz"[d], unit));
+  for (const auto& stage : c.stages) newton_ |= !std::holds_alternative<ExplicitOptions>(stage);
+  if (newton_) titles_.insert(titles_.end(), {"iterations", "residual", "cuts"});
+  removal_ = c.grid.leaving == Leaving::remove;
+  if (removal_) titles_.push_back("points removed");
+}
+
+template <int dim>
+std::vector<double> HistoryColumns<dim>::values(const Row<dim>& row, const Model<dim>& model) const {
+  std::vector<double> v{static_cast<double>(row.stage), row.dt};
+  if (output_.energies) {
+    const EnergyRecord& e = row.energy;
+    const double total = e.kinetic + e.strain + e.dissipation;
+    v.insert(v.end(), {e.kinetic, e.strain, e.dissipation, e.external_work, total,
+                       total - row.first_energy - e.external_work});
+  }
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    for (const int d : held_[k]) v.push_back(row.reactions[k][d]);
+  for (const auto& track : row.tracked) v.insert(v.end(), track.data(), track.data() + dim);
+  if (newton_) {
+    const bool iterated = row.newton && !row.newton->residuals.empty();
+    v.push_back(row.newton ? row.newton->iterations : 0);
+    v.push_back(iterated ? row.newton->residuals.back() : 0.0);
+    v.push_back(row.newton ? row.newton->cuts : 0);
+  }
+  if (removal_) v.push_back(static_cast<double>(model.removed));
+  return v;
+}
+
+template <int dim>
+Tracked<dim>::Tracked(const std::vector<TrackOptions>& options, const Model<dim>& model) {
+  for (const auto& track : options) {
+    const std::size_t body = body_index(model.bodies, track.body, "track '" + track.label + "'");
+    points_.push_back(
+        {body, nearest_point<dim>(model.bodies[body], Eigen::Map<const Vec<dim>>(track.nearest.data()))});
+  }
+}
+
+template <int dim>
+std::vector<Vec<dim>> Tracked<dim>::now(const Model<dim>& model) {
+  constexpr std::size_t stride = 3 * dim + 1;
+  std::vector<double> all(points_.size() * stride, 0.0);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    auto& [body, id, place] = points_[k];
+    const auto& points = model.bodies[body].points;
+    if (place >= points.id.size() || points.id[place] != id)
+      place = static_cast<std::size_t>(std::find(points.id.begin(), points.id.end(), id) - points.id.begin());
+    if (place == points.id.size()) continue;
+    double* out = all.data() + k * stride;
+    for (const auto* v : {&points.position[place], &points.displacement[place], &points.velocity[place]})
+      out = std::copy(v->data(), v->data() + dim, out);
+    *out = 1.0;
+  }
+  if (!all.empty()) Session::sum_in_place(all);
+  std::vector<Vec<dim>> result;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    for (std::size_t q = 0; q < 3; ++q)
+      result.push_back(all[k * stride + 3 * dim] > 0
+                           ? Vec<dim>(Eigen::Map<const Vec<dim>>(all.data() + k * stride + q * dim))
+                           : Vec<dim>(Vec<dim>::Constant(std::numeric_limits<double>::quiet_NaN())));
+  return result;
+}
+
+template VtuPoints picture<2>(const Model<2>&);
+template VtuPoints picture<3>(const Model<3>&);
+template class HistoryColumns<2>;
+template class HistoryColumns<3>;
+template class Tracked<2>;
+template class Tracked<3>;
+
+}  // namespace wisp

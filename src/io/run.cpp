@@ -1,0 +1,350 @@
+#include "io/run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/explicit.h"
+#include "analysis/implicit.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "io/checkpoint_state.h"
+#include "io/output.h"
+#include "io/results_folder.h"
+#include "io/run_report.h"
+
+namespace wisp {
+namespace {
+namespace fs = std::filesystem;
+
+/// Steps between looks at the balance of points over the ranks.
+constexpr std::int64_t rebalance_every = 20;
+
+ModelOptions model_options(const Case& c) {
+  return {c.grid,      c.basis,   c.bodies,        c.boundaries, c.loads,
+          c.tractions, c.gravity, c.stabilisation, c.solver,     c.file.folder};
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const auto& line : lines) text += line + "\n";
+  return text;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+/// The case that a checkpoint belongs to.
+Case stored_case(const Checkpoint& checkpoint) {
+  return read_case(CaseSource{checkpoint.text("case name"), checkpoint.text("case folder"),
+                              checkpoint.case_text, split(checkpoint.text("case overrides"))});
+}
+
+/// Explicit stages start steps from these: see Explicit::warm_velocity.
+struct WarmStart {
+  std::vector<double> velocity, acceleration;
+};
+
+template <int dim>
+class Run {
+ public:
+  Run(const Case& c, const fs::path& folder, Talk talk)
+      : case_(c),
+        folder_(folder),
+        talk_(Session::rank() == 0 ? talk : Talk::quiet),
+        model_(model_options(c)),
+        columns_(c, model_),
+        tracked_(c.output.track, model_) {}
+
+  void start() {
+    results_.emplace(ResultsFolder::start(folder_, case_, columns_.titles()));
+    add_state();
+    go();
+  }
+
+  /// `parts`: this rank's own if as many ranks go on as were stopped, else those of all ranks.
+  void resume(const std::vector<Checkpoint>& parts, bool same_ranks) {
+    const Checkpoint& first = parts.front();
+    if (same_ranks)
+      restore(first, model_);
+    else
+      restore_parts(parts, model_);
+    stage_ = static_cast<std::size_t>(first.integer("stage"));
+    step_in_stage_ = first.integer("step in stage");
+    stage_start_ = first.number("stage start");
+    if (const auto& energy = first.doubles("first energy"); !energy.empty()) first_energy_ = energy.front();
+    told_removed_ = model_.removed;
+    if (same_ranks) warm_ = {first.doubles("warm velocity"), first.doubles("warm acceleration")};
+    results_.emplace(
+        ResultsFolder::resume(folder_, columns_.titles(), model_.time, first.integer("last row")));
+    tell(fmt::format("going on from step {} at t = {:.6g} s", model_.step, model_.time));
+    go();
+  }
+
+ private:
+  void tell(const std::string& text) const {
+    if (talk_ == Talk::normal) fmt::print("{}\n", text);
+  }
+
+  void go() {
+    for (; stage_ < case_.stages.size(); ++stage_) {
+      if (step_in_stage_ == 0) stage_start_ = model_.time;
+      model_.timers = Timers();
+      point_steps_ = 0.0;
+      std::visit([&](const auto& options) { stage(options); }, case_.stages[stage_]);
+      times_.push_back({stage_title(), model_.timers, point_steps_});
+      step_in_stage_ = 0;
+    }
+    const double bandwidth = talk_ == Talk::normal ? triad_bandwidth() : 0.0;
+    if (model_.options.grid.leaving == Leaving::remove)
+      tell(fmt::format("{} points left the grid and were removed", model_.removed));
+    tell(summary(folder_, times_, bandwidth));
+  }
+
+  std::string stage_title() const {
+    const std::string_view type =
+        std::visit([](const auto& o) -> std::string_view { return std::decay_t<decltype(o)>::name; },
+                   case_.stages[stage_]);
+    if (case_.stages.size() == 1) return std::string(type);
+    return fmt::format("stage {}/{} {}", stage_ + 1, case_.stages.size(), type);
+  }
+  double stage_duration() const {
+    return std::visit([](const auto& o) { return o.duration; }, case_.stages[stage_]);
+  }
+  double stage_end() const { return stage_start_ + stage_duration(); }
+  double share_done() const { return (model_.time - stage_start_) / stage_duration(); }
+
+  /// Before every step.
+  bool rebalance() {
+    point_steps_ += static_cast<double>(local_points());
+    return Session::size() > 1 && model_.step % rebalance_every == 0 && model_.rebalance();
+  }
+  int local_points() const {
+    int n = 0;
+    for (const auto& body : model_.bodies) n += body.points.size();
+    return n;
+  }
+
+  void stage(const ExplicitOptions& options);
+  template <class Options>
+  void stage(const Options& options);  // implicit
+  template <class Analysis>
+  void after_step(Analysis& analysis, double time_before, Progress& progress);
+  template <class Analysis>
+  void add_checkpoint(Analysis& analysis, bool stage_is_over);
+  void add_last_row(Explicit<dim>& analysis);
+
+  bool row_due() const {
+    return results_->last_row() < model_.step && model_.step % case_.output.history_every == 0;
+  }
+  EnergyRecord energies_of_points() const;
+  void add_row(std::int64_t step, double time, Row<dim> row);
+  void add_state() { results_->add_state(model_.step, model_.time, picture(model_)); }
+
+  Case case_;
+  fs::path folder_;
+  Talk talk_;
+  Model<dim> model_;
+  HistoryColumns<dim> columns_;
+  Tracked<dim> tracked_;
+  std::optional<ResultsFolder> results_;
+
+  std::size_t stage_ = 0;
+  std::int64_t step_in_stage_ = 0;
+  double stage_start_ = 0.0;            ///< s
+  std::optional<double> first_energy_;  ///< J
+  std::optional<WarmStart> warm_;       ///< of the checkpoint, until its stage goes on
+  double last_dt_ = 0.0;                ///< s
+  std::int64_t told_removed_ = 0;
+  double point_steps_ = 0.0;
+  std::vector<StageTimes> times_;
+};
+
+template <int dim>
+EnergyRecord Run<dim>::energies_of_points() const {
+  EnergyRecord record;
+  for (const auto& body : model_.bodies) {
+    const BodyEnergy e = energy(body);
+    record.kinetic += e.kinetic, record.strain += e.strain, record.dissipation += e.dissipation;
+  }
+  const Vec<3> sum = Session::sum(Vec<3>(record.kinetic, record.strain, record.dissipation));
+  return {sum[0], sum[1], sum[2], model_.external_work};
+}
+
+template <int dim>
+void Run<dim>::add_row(std::int64_t step, double time, Row<dim> row) {
+  row.stage = static_cast<int>(stage_) + 1;
+  if (!first_energy_)
+    first_energy_ =
+        row.energy.kinetic + row.energy.strain + row.energy.dissipation - row.energy.external_work;
+  row.first_energy = *first_energy_;
+  results_->add_row(step, time, columns_.values(row, model_));
+}
+
+/// What follows every step: the last row of an explicit stage, states, checkpoints, and word of points that
+/// left.
+template <int dim>
+template <class Analysis>
+void Run<dim>::after_step(Analysis& analysis, double time_before, Progress& progress) {
+  const int every = case_.output.checkpoint_every, frames = case_.output.frames;
+  const bool over = model_.time >= stage_end();
+  const auto frame = [&](double time) {
+    return std::floor((time - stage_start_) / stage_duration() * frames + 1e-9);
+  };
+  const bool state_due = frames > 0 && (over || frame(model_.time) > frame(time_before));
+  const bool checkpoint_due = over || (every > 0 && model_.step % every == 0);
+  // Files show and hold settled states: points in the grid, each with its rank.
+  if (state_due || checkpoint_due) model_.settle();
+  if (model_.removed > told_removed_) {
+    progress.line(fmt::format("step {} at t = {:.6g} s: {} points left the grid and were removed, {} so far",
+                              model_.step, model_.time, model_.removed - told_removed_, model_.removed));
+    told_removed_ = model_.removed;
+  }
+  if constexpr (std::is_same_v<Analysis, Explicit<dim>>)
+    if (over) add_last_row(analysis);
+  const auto timer = model_.timers.start("states, checkpoints");
+  if (state_due) add_state();
+  if (checkpoint_due) add_checkpoint(analysis, over);
+}
+
+template <int dim>
+template <class Analysis>
+void Run<dim>::add_checkpoint(Analysis& analysis, bool stage_is_over) {
+  Checkpoint checkpoint;
+  store(model_, checkpoint);
+  checkpoint.case_text = case_.file.text;
+  checkpoint.set("case name", case_.file.name);
+  checkpoint.set("case folder", fs::absolute(case_.file.folder).string());
+  checkpoint.set("case overrides", joined(case_.file.overrides));
+  checkpoint.set_integer("stage", static_cast<std::int64_t>(stage_) + (stage_is_over ? 1 : 0));
+  checkpoint.set_integer("step in stage", stage_is_over ? 0 : step_in_stage_);
+  checkpoint.set_number("stage start", stage_start_);
+  checkpoint.set_integer("last row", results_->last_row());
+  checkpoint.set("first energy", first_energy_ ? Checkpoint::Doubles{*first_energy_} : Checkpoint::Doubles{});
+  WarmStart warm;
+  if constexpr (std::is_same_v<Analysis, Explicit<dim>>)
+    if (!stage_is_over) warm = {analysis.warm_velocity(), analysis.warm_acceleration()};
+  checkpoint.set("warm velocity", std::move(warm.velocity));
+  checkpoint.set("warm acceleration", std::move(warm.acceleration));
+  results_->add_checkpoint(checkpoint);
+  // A run that goes on from here has nothing kept in its solvers, so neither has this one.
+  analysis.renew_solver();
+}
+
+/// The row after the last step: energies of the state that no further step starts from.
+template <int dim>
+void Run<dim>::add_last_row(Explicit<dim>& analysis) {
+  Row<dim> row;
+  row.dt = last_dt_;
+  if (case_.output.energies) analysis.measure(row.energy);
+  row.reactions = model_.reactions;
+  row.tracked = tracked_.now(model_);
+  add_row(model_.step, model_.time, row);
+}
+
+/// A row of an explicit step tells of the state that it starts from: energies at the time of its forces.
+template <int dim>
+void Run<dim>::stage(const ExplicitOptions& options) {
+  Explicit<dim> analysis(model_, options);
+  if (warm_) analysis.warm_velocity() = warm_->velocity, analysis.warm_acceleration() = warm_->acceleration;
+  warm_.reset();
+  Progress progress(stage_title(),
+                    talk_ == Talk::normal ? Progress::Style::automatic : Progress::Style::quiet);
+  while (model_.time < stage_end()) {
+    if (rebalance()) analysis.warm_velocity().clear(), analysis.warm_acceleration().clear();
+    const double time = model_.time, work = model_.external_work;
+    const std::int64_t step = model_.step;
+    const bool row_is_due = row_due(), energies = row_is_due && case_.output.energies;
+    Row<dim> row;
+    if (row_is_due) row.tracked = tracked_.now(model_);
+    row.dt = last_dt_ = analysis.time_step(stage_end());
+    analysis.step(row.dt, energies ? &row.energy : nullptr);
+    ++step_in_stage_;
+    const bool last =
+        options.steps ? step_in_stage_ == *options.steps : stage_end() - model_.time <= 1e-9 * row.dt;
+    if (last) model_.time = stage_end();  // sums of steps miss it by rounding
+    if (row_is_due) {
+      row.energy.external_work = work;
+      row.reactions = model_.reactions;
+      add_row(step, time, row);
+    }
+    if (progress.wants_update(share_done()))
+      progress.update(share_done(), energies ? fmt::format("step {}  kinetic {:.4g} J  strain {:.4g} J",
+                                                           model_.step, row.energy.kinetic, row.energy.strain)
+                                             : fmt::format("step {}", model_.step));
+    after_step(analysis, time, progress);
+  }
+}
+
+template <int dim>
+template <class Options>
+void Run<dim>::stage(const Options& options) {
+  Implicit<dim> analysis(model_, options);
+  warm_.reset();
+  Progress progress(stage_title(),
+                    talk_ == Talk::normal ? Progress::Style::automatic : Progress::Style::quiet);
+  if (row_due()) {
+    Row<dim> row;
+    row.energy = energies_of_points(), row.reactions = model_.reactions, row.tracked = tracked_.now(model_);
+    add_row(model_.step, model_.time, row);
+  }
+  while (step_in_stage_ < options.steps) {
+    rebalance();
+    const double time = model_.time;
+    const std::int64_t next = step_in_stage_ + 1;
+    const double target = next == options.steps
+                              ? stage_end()
+                              : stage_start_ + options.duration * (static_cast<double>(next) / options.steps);
+    Row<dim> row;
+    // Ends of steps are not summed, so that a step that was halted midway ends where it should have.
+    row.dt = target - time;
+    row.newton = analysis.step(row.dt, &row.energy);
+    step_in_stage_ = next;
+    model_.time = target;
+    if (row_due() || next == options.steps) {
+      row.reactions = model_.reactions, row.tracked = tracked_.now(model_);
+      add_row(model_.step, model_.time, row);
+    }
+    if (progress.wants_update(share_done()))
+      progress.update(share_done(), fmt::format("step {}  {} iterations  residual {:.2e}", model_.step,
+                                                row.newton->iterations, row.newton->residuals.back()));
+    after_step(analysis, time, progress);
+  }
+}
+
+/// Calls f with the dimension of a case as a constant.
+template <class F>
+void with_dimension(const Case& c, F&& f) {
+  if (c.dimension == 2)
+    f(std::integral_constant<int, 2>());
+  else
+    f(std::integral_constant<int, 3>());
+}
+
+}  // namespace
+
+void run_case(const Case& c, const fs::path& folder, Talk talk) {
+  with_dimension(c, [&](auto dim) { Run<dim()>(c, folder, talk).start(); });
+}
+
+void resume_run(const fs::path& folder, Talk talk) {
+  std::vector<std::string> passed_over;
+  const bool same_ranks = checkpoint_sets(folder).front().ranks == Session::size();
+  std::vector<Checkpoint> parts;
+  if (same_ranks)
+    parts.push_back(read_latest_checkpoint(folder, output_ranks(), &passed_over));
+  else
+    parts = read_latest_parts(folder, &passed_over);
+  if (talk == Talk::normal && Session::rank() == 0)
+    for (const auto& reason : passed_over) fmt::print("passed over: {}\n", reason);
+  const Case c = stored_case(parts.front());
+  with_dimension(c, [&](auto dim) { Run<dim()>(c, folder, talk).resume(parts, same_ranks); });
+}
+
+}  // namespace wisp
