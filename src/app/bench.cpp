@@ -1,5 +1,7 @@
 #include "app/bench.h"
 
+#include "io/run_report.h"
+
 #include <fmt/format.h>
 #include <malloc.h>
 
