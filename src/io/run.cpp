@@ -275,6 +275,7 @@ void Run<dim>::stage(const ExplicitOptions& options) {
   warm_.reset();
   Progress progress(stage_title(),
                     talk_ == Talk::normal ? Progress::Style::automatic : Progress::Style::quiet);
+  std::string remark;  // energies of the last row
   while (model_.time < stage_end()) {
     if (rebalance()) analysis.warm_velocity().clear(), analysis.warm_acceleration().clear();
     const double time = model_.time, work = model_.external_work;
@@ -283,7 +284,13 @@ void Run<dim>::stage(const ExplicitOptions& options) {
     Row<dim> row;
     if (row_is_due) row.tracked = tracked_.now(model_), measure_spectrum(options.mass, row);
     row.dt = last_dt_ = analysis.time_step(stage_end());
-    analysis.step(row.dt, energies ? &row.energy : nullptr);
+    try {
+      analysis.step(row.dt, energies ? &row.energy : nullptr);
+    } catch (const RunError& error) {  // the points may be half way through the step: older states count
+      if (checkpoint_step_ < 0) throw;
+      run_error("{}; the last checkpoint is that of step {}: wisp resume {}", error.what(), checkpoint_step_,
+                folder_.string());
+    }
     ++step_in_stage_;
     const bool last =
         options.steps ? step_in_stage_ == *options.steps : stage_end() - model_.time <= 1e-9 * row.dt;
@@ -293,10 +300,10 @@ void Run<dim>::stage(const ExplicitOptions& options) {
       row.reactions = model_.reactions;
       add_row(step, time, row);
     }
+    if (energies)
+      remark = fmt::format("  kinetic {:.4g} J  strain {:.4g} J", row.energy.kinetic, row.energy.strain);
     if (progress.wants_update(share_done()))
-      progress.update(share_done(), energies ? fmt::format("step {}  kinetic {:.4g} J  strain {:.4g} J",
-                                                           model_.step, row.energy.kinetic, row.energy.strain)
-                                             : fmt::format("step {}", model_.step));
+      progress.update(share_done(), fmt::format("step {}{}", model_.step, remark));
     after_step(analysis, time, progress);
   }
 }
