@@ -95,10 +95,9 @@ void Explicit<dim>::assemble_mass() {
       model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>());
 }
 
-/// Start-of-step velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition
-/// holds.
+/// Velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition holds, as at time t.
 template <int dim>
-void Explicit<dim>::solve_velocity(std::vector<double>& velocity) {
+void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   velocity.resize(n * dim, 0.0);
   const auto& constraints = model_.constraints;
@@ -106,7 +105,7 @@ void Explicit<dim>::solve_velocity(std::vector<double>& velocity) {
     for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
       if (constraints.fixed[k])
         velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(model_.time - dt_, dt_);
+            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t - dt_, dt_);
   };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -183,11 +182,10 @@ void Explicit<dim>::set_motion(double dt) {
     }
   if (model_.conditions.empty()) return;
   // R = M a - f at held unknowns.
-  std::vector<double> inertia;
   if (consistent_) {
-    inertia.resize(n * dim);
-    mass_.multiply_columns(acceleration_, inertia, dim);
-    model_.space->nodes().add(inertia.data(), dim);
+    inertia_.resize(n * dim);
+    mass_.multiply_columns(acceleration_, inertia_, dim);
+    model_.space->nodes().add(inertia_.data(), dim);
   }
   for (auto& r : model_.reactions) r.setZero();
   for (std::size_t i = 0; i < n; ++i) {
@@ -195,7 +193,7 @@ void Explicit<dim>::set_motion(double dt) {
     for (std::size_t d = 0; d < dim; ++d) {
       const std::size_t k = i * dim + d;
       if (!model_.constraints.fixed[k]) continue;
-      const double ma = consistent_ ? inertia[k] : sums_[i * sums_stride<dim>] * acceleration_[k];
+      const double ma = consistent_ ? inertia_[k] : sums_[i * sums_stride<dim>] * acceleration_[k];
       model_.reactions[static_cast<std::size_t>(model_.constraints.condition[k])][static_cast<int>(d)] +=
           ma - right_side_[k];
     }
@@ -233,7 +231,7 @@ void Explicit<dim>::measure(EnergyRecord& record) {
   model_.settle();
   gather(Gather::inertia);
   if (consistent_) assemble_mass();
-  solve_velocity(velocity_);
+  solve_velocity(model_.time, velocity_);
   record_energy(record);
 }
 
@@ -249,8 +247,8 @@ void Explicit<dim>::add_work(double dt) {
       double f = sums_[i * sums_stride<dim>] * gravity[static_cast<int>(d)];
       if (!loads_.empty()) f += loads_[i * dim + d];
       const std::size_t k = i * dim + d;
-      if (model_.constraints.any && model_.constraints.fixed[k] && !consistent_)
-        f += sums_[i * sums_stride<dim>] * acceleration_[k] - right_side_[k];
+      if (model_.constraints.any && model_.constraints.fixed[k])
+        f += (consistent_ ? inertia_[k] : sums_[i * sums_stride<dim>] * acceleration_[k]) - right_side_[k];
       work += dt * f * motion_[i * motion_stride<dim> + d];
     }
   }
@@ -290,7 +288,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   {
     const auto timer = model_.timers.start(3);
-    solve_velocity(velocity_);
+    solve_velocity(model_.time, velocity_);
   }
   if (scheme == StressUpdate::usf) {
     PointUpdate strain = update;
@@ -324,7 +322,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     {
       const auto timer = model_.timers.start(1);
       gather(Gather::inertia);
-      solve_velocity(strain_velocity_);
+      solve_velocity(model_.time + dt, strain_velocity_);
     }
     update.velocity = false, update.strain_velocity = strain_velocity_;
   }

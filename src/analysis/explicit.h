@@ -27,6 +27,7 @@ class Explicit {
   /// Errors (RunError): mass solve failed.
   void measure(EnergyRecord& record);
 
+  const ExplicitOptions& options() const { return options_; }
   /// Start-of-step velocity (n_functions x dim) and, for the consistent mass, the matrix with Ghost of the
   /// last step.
   std::span<const double> start_velocity() const { return velocity_; }
@@ -40,7 +41,7 @@ class Explicit {
  private:
   void gather(Gather what);
   void assemble_mass();
-  void solve_velocity(std::vector<double>& velocity);
+  void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
   void check_finite() const;
@@ -53,7 +54,8 @@ class Explicit {
   bool consistent_;
   double dt_ = 0.0;  // of the running step
   // Arrays over functions; see explicit_transfer.h for the records.
-  std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_;
+  std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_,
+      inertia_;
   BlockMatrix mass_{1};
   MassSolver solver_;
 };

@@ -327,10 +327,10 @@ void Implicit<dim>::advance(double dt, int cuts_left, ImplicitRecord& record) {
   std::string residuals;
   for (const double r : report.residuals)
     residuals += fmt::format("{}{:.3e}", residuals.empty() ? "" : ", ", r);
-  run_error(
+  throw StepRefused(fmt::format(
       "step {} at t = {:.6g} s did not converge: {} (residuals {}); try more steps, cuts = 5, line_search = "
       "true, or [stabilisation]",
-      model_.step + 1, model_.time, report.cause, residuals);
+      model_.step + 1, model_.time, report.cause, residuals));
 }
 
 template <int dim>

@@ -1,6 +1,7 @@
 // What an analysis works on: the discretisation, the bodies, what acts on them, and where the run stands.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -45,6 +46,10 @@ struct Model {
   std::vector<PointLoad<dim>> loads;
   std::vector<Traction<dim>> tractions;
 
+  /// Body force per mass (m/s2) besides gravity at a point's initial position (m) and a time (s); not in case
+  /// files. Forces that make a chosen motion the exact solution come in here.
+  std::function<Vec<dim>(const Vec<dim>& start, double t)> body_acceleration;
+
   double time = 0.0;                ///< s
   std::int64_t step = 0;            ///< finished steps, over all stages
   std::int64_t removed = 0;         ///< points removed because they left the grid, all ranks
@@ -53,8 +58,8 @@ struct Model {
   Timers timers;
 
   Vec<dim> gravity(double t) const;
-  bool has_loads() const { return !loads.empty() || !tractions.empty(); }
-  /// Adds point loads and tractions at time t to `force` (n_functions x dim), this rank's share.
+  bool has_loads() const { return !loads.empty() || !tractions.empty() || body_acceleration; }
+  /// Adds point loads, tractions and body_acceleration at time t to `force` (n_functions x dim), this rank's share.
   void add_loads(double t, std::span<double> force) const;
   std::int64_t n_points() const;  ///< all ranks
 

@@ -2,7 +2,16 @@
 #pragma once
 #include <vector>
 
+#include "core/error.h"
+
 namespace wisp {
+
+/// A step that all ranks together could not do. The state at its start stands (of a step that was cut: what
+/// has been done of it), so a run may keep it.
+class StepRefused : public RunError {
+ public:
+  using RunError::RunError;
+};
 
 /// Energies of all ranks at one time level: that of the forces of the step (explicit: kinetic energy v^T M v
 /// / 2 of the start-of-step grid velocity with the consistent mass, without Ghost; strain energy of the

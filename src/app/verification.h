@@ -11,15 +11,15 @@ namespace wisp {
 
 /// One compared number.
 struct VerificationRow {
-  std::string case_name;            ///< "h = 0.125, 4x4 points"
-  std::string quantity;             ///< "Newton iterations"
-  std::optional<double> published;  ///< absent where nothing is printed
+  std::string case_name{};            ///< "h = 0.125, 4x4 points"
+  std::string quantity{};             ///< "Newton iterations"
+  std::optional<double> published{};  ///< absent where nothing is printed
   double computed = 0.0;
   std::string reference = "published";  ///< "published", "exact" or "converged": what `expected` is
-  std::optional<double> expected;       ///< what `computed` is compared with; absent: the published value
-  std::optional<double> tolerance;      ///< on |computed - expected| / |expected| (absolute if expected is 0)
+  std::optional<double> expected{};     ///< what `computed` is compared with; absent: the published value
+  std::optional<double> tolerance{};    ///< on |computed - expected| / |expected| (absolute if expected is 0)
   bool gated = false;                   ///< counts for the exit status
-  std::optional<bool> verdict;          ///< of a test that is not a tolerance (a trend, a bound)
+  std::optional<bool> verdict{};        ///< of a test that is not a tolerance (a trend, a bound)
 
   /// Published or expected value to compare with.
   std::optional<double> target() const { return expected ? expected : published; }

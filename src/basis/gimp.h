@@ -56,6 +56,7 @@ class Gimp : public GimpOptions {
     int first = grid_->locate(d, a);
     const double guard = touching * (lines[first + 1] - lines[first]);
     if (lines[first + 1] - a <= guard && l > 0) ++first;
+    first = std::min(first, grid_->cells(d) - 1);  // the upper edge belongs to the last cell
     int base = first;
     if constexpr (width == 5) {
       int centre = grid_->locate(d, x), last = grid_->locate(d, b);

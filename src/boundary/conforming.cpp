@@ -76,7 +76,11 @@ Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& 
   for (int d = 0; d < dim; ++d) {
     // Only a condition along the whole edge plane counts as one on the edge.
     const auto k = static_cast<std::size_t>(2 * d);
-    if (held.upper[d] - held.lower[d] == 1)
+    const auto& all = space.window().grid_nodes();
+    bool whole = held.upper[d] - held.lower[d] == 1;
+    for (int e = 0; e < dim; ++e)
+      whole &= e == d || (held.lower[e] == all.lower[e] && held.upper[e] == all.upper[e]);
+    if (whole)
       edge_[k] = held.lower[d] == 0, edge_[k + 1] = held.lower[d] == grid.cells(d);
   }
   for_each_in(held, [&](const MultiIndex<dim>& i) {

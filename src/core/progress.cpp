@@ -21,15 +21,17 @@ std::string duration_text(double seconds) {
 
 namespace {
 
-/// Columns of the terminal behind a file, 0 if there is none. Ranks write into a pipe: the process that
-/// started them tells the width in WISP_TERMINAL.
+/// Columns of the terminal behind a file, 0 if there is none. mpirun gives its ranks a pseudo terminal
+/// whatever its own output is, so there only the word of the process that started them counts: the width in
+/// WISP_TERMINAL.
 int terminal_width(std::FILE* out) {
-  if (isatty(fileno(out)) != 0) {
-    winsize size{};
-    return ioctl(fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) {
+    const char* told = out == stdout ? std::getenv("WISP_TERMINAL") : nullptr;
+    return told ? std::max(0, std::atoi(told)) : 0;
   }
-  const char* told = out == stdout ? std::getenv("WISP_TERMINAL") : nullptr;
-  return told ? std::max(0, std::atoi(told)) : 0;
+  if (isatty(fileno(out)) == 0) return 0;
+  winsize size{};
+  return ioctl(fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
 }
 
 }  // namespace
@@ -76,7 +78,8 @@ void Progress::draw(double done, std::string_view remark) {
                                            : std::string("...");
   std::string text = fmt::format("{} [{}] {:3.0f} %  {}", label_, bar, 100.0 * done, left);
   if (!remark.empty()) text += fmt::format("  {}", remark);
-  const auto width = static_cast<std::size_t>(std::max(20, terminal_width(out_)));
+  const int columns = terminal_width(out_);
+  const auto width = static_cast<std::size_t>(columns > 0 ? columns : 120);
   if (text.size() >= width) text.resize(width - 1);  // a wrapped line could not be redrawn
   fmt::print(out_, "\r\x1b[2K{}", text);
   std::fflush(out_);

@@ -5,6 +5,7 @@
 
 #include "analysis/explicit.h"
 #include "analysis/implicit.h"
+#include "analysis/spectra.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "io/checkpoint_state.h"
@@ -79,11 +80,14 @@ class Run {
     step_in_stage_ = first.integer("step in stage");
     stage_start_ = first.number("stage start");
     if (const auto& energy = first.doubles("first energy"); !energy.empty()) first_energy_ = energy.front();
-    told_removed_ = model_.removed;
+    told_removed_ = model_.removed, checkpoint_step_ = model_.step;
     if (same_ranks) warm_ = {first.doubles("warm velocity"), first.doubles("warm acceleration")};
     results_.emplace(
         ResultsFolder::resume(folder_, columns_.titles(), model_.time, first.integer("last row")));
-    tell(fmt::format("going on from step {} at t = {:.6g} s", model_.step, model_.time));
+    if (stage_ == case_.stages.size())
+      tell(fmt::format("the run has ended already, with step {} at t = {:.6g} s", model_.step, model_.time));
+    else
+      tell(fmt::format("going on from step {} at t = {:.6g} s", model_.step, model_.time));
     go();
   }
 
@@ -139,6 +143,7 @@ class Run {
   template <class Analysis>
   void add_checkpoint(Analysis& analysis, bool stage_is_over);
   void add_last_row(Explicit<dim>& analysis);
+  void measure_spectrum(Mass mass, Row<dim>& row);
 
   bool row_due() const {
     return results_->last_row() < model_.step && model_.step % case_.output.history_every == 0;
@@ -162,6 +167,7 @@ class Run {
   std::optional<WarmStart> warm_;       ///< of the checkpoint, until its stage goes on
   double last_dt_ = 0.0;                ///< s
   std::int64_t told_removed_ = 0;
+  std::int64_t checkpoint_step_ = -1;  ///< of the newest checkpoint
   double point_steps_ = 0.0;
   std::vector<StageTimes> times_;
 };
@@ -235,6 +241,7 @@ void Run<dim>::add_checkpoint(Analysis& analysis, bool stage_is_over) {
   results_->add_checkpoint(checkpoint);
   // A run that goes on from here has nothing kept in its solvers, so neither has this one.
   analysis.renew_solver();
+  checkpoint_step_ = model_.step;
 }
 
 /// The row after the last step: energies of the state that no further step starts from.
@@ -243,9 +250,21 @@ void Run<dim>::add_last_row(Explicit<dim>& analysis) {
   Row<dim> row;
   row.dt = last_dt_;
   if (case_.output.energies) analysis.measure(row.energy);
+  measure_spectrum(analysis.options().mass, row);
   row.reactions = model_.reactions;
   row.tracked = tracked_.now(model_);
   add_row(model_.step, model_.time, row);
+}
+
+template <int dim>
+void Run<dim>::measure_spectrum(Mass mass, Row<dim>& row) {
+  const OutputOptions& output = case_.output;
+  if (!output.condition_numbers && !output.critical_time_step) return;
+  const auto timer = model_.timers.start("condition number, critical time step");
+  model_.settle();
+  ExplicitSpectrum<dim> spectrum(model_, mass);
+  if (output.condition_numbers) row.condition = spectrum.condition();
+  if (output.critical_time_step) row.critical_time_step = spectrum.critical_time_step();
 }
 
 /// A row of an explicit step tells of the state that it starts from: energies at the time of its forces.
@@ -262,7 +281,7 @@ void Run<dim>::stage(const ExplicitOptions& options) {
     const std::int64_t step = model_.step;
     const bool row_is_due = row_due(), energies = row_is_due && case_.output.energies;
     Row<dim> row;
-    if (row_is_due) row.tracked = tracked_.now(model_);
+    if (row_is_due) row.tracked = tracked_.now(model_), measure_spectrum(options.mass, row);
     row.dt = last_dt_ = analysis.time_step(stage_end());
     analysis.step(row.dt, energies ? &row.energy : nullptr);
     ++step_in_stage_;
@@ -304,11 +323,19 @@ void Run<dim>::stage(const Options& options) {
     Row<dim> row;
     // Ends of steps are not summed, so that a step that was halted midway ends where it should have.
     row.dt = target - time;
-    row.newton = analysis.step(row.dt, &row.energy);
+    try {
+      row.newton = analysis.step(row.dt, &row.energy);
+    } catch (const StepRefused& refused) {
+      if (checkpoint_step_ != model_.step || model_.time > time) add_checkpoint(analysis, false);
+      run_error("{}; the state at t = {:.6g} s, after step {}, is kept: wisp resume {}", refused.what(),
+                model_.time, model_.step, folder_.string());
+    }
     step_in_stage_ = next;
     model_.time = target;
     if (row_due() || next == options.steps) {
       row.reactions = model_.reactions, row.tracked = tracked_.now(model_);
+      if (case_.output.condition_numbers)
+        row.condition = condition_number(analysis.stiffness(), analysis.unknowns());
       add_row(model_.step, model_.time, row);
     }
     if (progress.wants_update(share_done()))

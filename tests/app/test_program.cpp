@@ -39,15 +39,17 @@ class Program : public testing::Test {
   void TearDown() override { fs::remove_all(base_); }
 
   Outcome wisp(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() + "' && '" + WISP_PROGRAM + "' " + arguments + " > '" +
-                                (base_ / "out").string() + "' 2> '" + (base_ / "err").string() + "'";
+    const std::string command = "cd '" + folder_.string() + "' && '" + WISP_PROGRAM + "' " + arguments +
+                                " > '" + (base_ / "out").string() + "' 2> '" + (base_ / "err").string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(base_ / "out"), content(base_ / "err")};
   }
 
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 
-  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+  int files() const {
+    return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
 
   /// Status 2, one line on the error stream with this beginning, nothing on the other, no new file.
   void expect_refused(const std::string& arguments, const std::string& message) {
@@ -83,14 +85,17 @@ TEST_F(Program, RefusesMalformedCases) {
     expect_refused(command + ".", ".: expected a case file, found a folder");
     expect_refused(command + "empty.toml", "empty.toml:1:1: missing key 'dimension'");
     expect_refused(command + "syntax.toml", "syntax.toml:1:13: not valid TOML: ");
-    expect_refused(command + "typo.toml", "typo.toml:1:1: unknown key 'dimensoin'; did you mean 'dimension'?");
+    expect_refused(command + "typo.toml",
+                   "typo.toml:1:1: unknown key 'dimensoin'; did you mean 'dimension'?");
     expect_refused(command + "late.toml --set dimension=2", "late.toml:");
     expect_refused(command + "good.toml --set dimension=4",
                    "--set dimension=4: dimension: expected an integer in [2, 3], found integer 4");
     expect_refused(command + "good.toml --set 'body[0].material.young_modulus=stiff'",
-                   "--set body[0].material.young_modulus=stiff: [body.material] young_modulus: expected a number >= 0 Pa, "
+                   "--set body[0].material.young_modulus=stiff: [body.material] young_modulus: expected a "
+                   "number >= 0 Pa, "
                    "found string \"stiff\"");
-    expect_refused(command + "good.toml --set body[7].name=x", "--set body[7].name=x: 'body' has 1 entries, counted from 0");
+    expect_refused(command + "good.toml --set body[7].name=x",
+                   "--set body[7].name=x: 'body' has 1 entries, counted from 0");
     expect_refused(command + "good.toml --set nonsense", "--set nonsense: expected key=value");
   }
 }
@@ -102,7 +107,8 @@ TEST_F(Program, RefusesMalformedCommandLines) {
   expect_refused("check a.toml b.toml", "The following argument was not expected: b.toml");
   expect_refused("--fast", "");
   expect_refused("describe materiel", "describe: unknown kind or name 'materiel'; did you mean 'material'?");
-  expect_refused("describe material henky", "describe material: unknown name 'henky'; did you mean 'hencky'?");
+  expect_refused("describe material henky",
+                 "describe material: unknown name 'henky'; did you mean 'hencky'?");
   expect_refused("describe material --markdown", "describe: --markdown writes everything and takes no kind");
   expect_refused("template", "kind is required");
   expect_refused("template explict", "template: unknown word 'explict'; did you mean 'explicit'?");
@@ -117,7 +123,8 @@ TEST_F(Program, DescribesAndWritesTemplates) {
     EXPECT_EQ(o.err, "");
     EXPECT_GT(o.out.size(), 100u) << words;
   }
-  const Outcome o = wisp("template quasi-static 3d > t.toml && '" + std::string(WISP_PROGRAM) + "' check t.toml");
+  const Outcome o =
+      wisp("template quasi-static 3d > t.toml && '" + std::string(WISP_PROGRAM) + "' check t.toml");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_NE(o.out.find("valid. 3 dimensions"), std::string::npos);
   EXPECT_EQ(wisp("--help").status, 0);

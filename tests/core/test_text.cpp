@@ -24,7 +24,8 @@ TEST(Nearest, OffersWhatIsNear) {
   EXPECT_EQ(nearest("young_moduls", valid), "young_modulus");
   EXPECT_EQ(nearest("dens", valid), "density");  // a beginning
   EXPECT_EQ(nearest("zebra", valid), "");
-  EXPECT_EQ(suggestion("densty", valid), "; did you mean 'density'? (valid: density, young_modulus, poisson_ratio)");
+  EXPECT_EQ(suggestion("densty", valid),
+            "; did you mean 'density'? (valid: density, young_modulus, poisson_ratio)");
   EXPECT_EQ(suggestion("zebra", valid), "; valid: density, young_modulus, poisson_ratio");
 }
 

@@ -1,0 +1,70 @@
+"""Draws the data of a figure, FILE.csv, into FILE.png: curves over the first column, or points coloured by the third."""
+import argparse
+import csv
+import os
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+
+def read(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    return rows[0], np.array([[float(cell) for cell in row] for row in rows[1:]])
+
+
+def curves(figure, titles, data):
+    axes = figure.add_subplot()
+    x, columns = data[:, 0], data[:, 1:]
+    positive = columns[np.isfinite(columns) & (columns > 0)]
+    if positive.size and np.nanmin(columns) > 0 and positive.max() > 1e3 * positive.min():
+        axes.set_yscale("log")
+    for title, values in zip(titles[1:], columns.T):
+        known = np.isfinite(values)  # a curve may have fewer points than the others
+        axes.plot(x[known], values[known], linewidth=1.2, label=title)
+    axes.set_xlabel(titles[0])
+    if len(titles) == 2:
+        axes.set_ylabel(titles[1])
+    else:
+        axes.legend(frameon=False, fontsize=8)
+    axes.grid(True, color="#d9dee3", linewidth=0.6)
+    return axes
+
+
+def points(figure, titles, data):
+    panel = data[:, 3] if data.shape[1] > 3 else np.zeros(len(data))
+    names = np.unique(panel)
+    for k, name in enumerate(names):
+        axes = figure.add_subplot(1, len(names), k + 1)
+        chosen = data[panel == name]
+        dots = axes.scatter(chosen[:, 0], chosen[:, 1], c=chosen[:, 2], s=3, linewidths=0)
+        figure.colorbar(dots, ax=axes, orientation="horizontal", label=titles[2], pad=0.12)
+        axes.set_aspect("equal")
+        if len(names) > 1:
+            axes.set_title(f"{titles[3]} {name:g}", fontsize=9)
+    return len(names)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file")
+    parser.add_argument("--title", default="")
+    parser.add_argument("--points", action="store_true")
+    given = parser.parse_args()
+    titles, data = read(given.file)
+    figure = Figure(figsize=(7.0, 4.2))
+    FigureCanvasAgg(figure)
+    if given.points:
+        figure.set_size_inches(3.6 * points(figure, titles, data), 4.4)
+    else:
+        curves(figure, titles, data)
+    figure.suptitle(given.title, fontsize=10)
+    figure.tight_layout()
+    picture = os.path.splitext(given.file)[0] + ".png"
+    figure.savefig(picture + ".part", format="png", dpi=140)
+    os.replace(picture + ".part", picture)
+
+
+if __name__ == "__main__":
+    main()

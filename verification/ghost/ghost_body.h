@@ -1,0 +1,31 @@
+// The ghost of sections 5.1 to 5.3. Its outline is not printed; ours has the printed width, height and area.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "grid/structured_options.h"
+#include "particle/body_options.h"
+
+namespace wisp::ghost_paper {
+
+/// One of the paper's three sets of points.
+struct Resolution {
+  std::string name;  ///< as in the published tables
+  int across;        ///< points across the ghost, which gives about the printed number of points
+};
+const std::vector<Resolution>& resolutions();
+/// By name. Errors (RunError): none of that name.
+const Resolution& resolution(const std::string& name);
+
+/// A ghost whose 0.4 m x 0.4 m box has its lower left corner at (x, y).
+BodyOptions ghost_body(const std::string& label, const Resolution& points, double x, double y,
+                       const AnyLaw& law);
+
+/// Square cells of side 1/cells on the unit square and two layers around it, so that grid edges touch
+/// nothing.
+StructuredGridOptions unit_grid(int cells);
+
+/// The paper's gamma_M = rho/4, which is the dimensionless key as well.
+inline constexpr double quarter = 0.25;
+
+}  // namespace wisp::ghost_paper
