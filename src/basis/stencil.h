@@ -86,7 +86,7 @@ struct TensorStencil {
       }
       for (int b = 0; b < width; ++b) {
         const Record<n> row = value[1][b] * plane + derivative[1][b] * plane_y;
-        const Record row_x = value[1][b] * plane_x;
+        const Record<n> row_x = value[1][b] * plane_x;
         double* const first = records + static_cast<std::ptrdiff_t>(base + b * stride[1] + c * stride[2]) * n;
         for (int a = 0; a < width; ++a) {
           auto* const out = reinterpret_cast<typename RecordTypes<n>::Stored*>(first + a * n);
