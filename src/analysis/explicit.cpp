@@ -217,12 +217,12 @@ template <int dim>
 void Explicit<dim>::record_energy(EnergyRecord& record) const {
   record = {};
   for (const auto& body : model_.bodies) {
-    record.kinetic += grid_kinetic_energy<dim>(*model_.space, body, velocity_, dim);
+    record.grid_kinetic += grid_kinetic_energy<dim>(*model_.space, body, velocity_, dim);
     const BodyEnergy e = energy(body);
-    record.strain += e.strain, record.dissipation += e.dissipation;
+    record.kinetic += e.kinetic, record.strain += e.strain, record.dissipation += e.dissipation;
   }
-  Vec<3> sum = Session::sum(Vec<3>(record.kinetic, record.strain, record.dissipation));
-  record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2];
+  Vec<4> sum = Session::sum(Vec<4>(record.kinetic, record.strain, record.dissipation, record.grid_kinetic));
+  record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2], record.grid_kinetic = sum[3];
   record.external_work = model_.external_work;
 }
 
