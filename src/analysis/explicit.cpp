@@ -322,6 +322,9 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     {
       const auto timer = model_.timers.start(1);
       gather(Gather::inertia);
+      // The solve starts from the velocity just found, not from an array that a resumed run would not have.
+      strain_velocity_.resize(velocity_.size());
+      for (std::size_t k = 0; k < velocity_.size(); ++k) strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
       solve_velocity(model_.time + dt, strain_velocity_);
     }
     update.velocity = false, update.strain_velocity = strain_velocity_;

@@ -171,6 +171,13 @@ void Implicit<dim>::start_inertia(double dt) {
   map(
       [](const auto& points) -> const auto& { return points.acceleration; }, acceleration_,
       [](const auto&) { return 0.0; });
+  // What the momentum at the start would take to stop in the step: forces are differences of terms of this size, so
+  // it belongs to the scale of the residual, or nothing converges when all forces pass through zero.
+  std::vector<double> inertia(n * dim);
+  const std::vector<double> none(n * dim, 0.0);
+  mass_.multiply_columns(acceleration(none, dt), inertia, dim);
+  space.nodes().add_update(inertia.data(), dim);
+  inertia_scale_ = std::sqrt(squared(space.nodes(), inertia, dim));
 }
 
 /// a = (u - dt v_n - dt^2 (1/2 - beta) a_n) / (beta dt^2)  (Newmark 1959)
@@ -211,7 +218,7 @@ double Implicit<dim>::residual(std::span<const double> u, double dt) {
   if (Session::sum(inverted) > 0) return std::numeric_limits<double>::quiet_NaN();
   const double r = std::sqrt(squared(space.nodes(), residual_, dim));
   double scale = std::sqrt(squared(space.nodes(), action, dim));
-  if (newmark_) scale += std::sqrt(squared(space.nodes(), force_, dim));
+  if (newmark_) scale += std::sqrt(squared(space.nodes(), force_, dim)) + inertia_scale_;
   // The first evaluation, before any correction, never ends a step: prescribed motion has yet to be applied.
   const double relative = r > 0 ? r / std::max(scale, std::numeric_limits<double>::min()) : 0.0;
   return evaluations_ == 1 ? std::max(relative, 1.0) : relative;

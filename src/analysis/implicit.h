@@ -61,6 +61,7 @@ class Implicit {
   NewtonOptions newton_;
   std::optional<Newmark> newmark_;
   int evaluations_ = 0;
+  double inertia_scale_ = 0.0;  // N
 
   std::vector<StoredStencils<dim>> stencils_;
   std::vector<char> active_;

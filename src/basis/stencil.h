@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstring>
 
 #include "parallel/window.h"
 #include "tensor/tensor.h"
@@ -14,11 +15,19 @@ namespace wisp {
 template <int n>
 struct RecordTypes {
   using Value __attribute__((vector_size(n * sizeof(double)))) = double;
-  /// The same in memory, where only doubles are aligned.
-  using Stored __attribute__((vector_size(n * sizeof(double)), aligned(sizeof(double)), may_alias)) = double;
 };
 template <int n>
 using Record = typename RecordTypes<n>::Value;
+
+/// Records lie in arrays of doubles, which are aligned to doubles only.
+template <int n>
+inline __attribute__((always_inline)) void load_record(const double* from, Record<n>& r) {
+  std::memcpy(&r, from, sizeof r);
+}
+template <int n>
+inline __attribute__((always_inline)) void store_record(const Record<n>& r, double* to) {
+  std::memcpy(to, &r, sizeof r);
+}
 
 /// A record and one for each direction.
 template <int dim, int n>
@@ -89,8 +98,11 @@ struct TensorStencil {
         const Record<n> row_x = value[1][b] * plane_x;
         double* const first = records + static_cast<std::ptrdiff_t>(base + b * stride[1] + c * stride[2]) * n;
         for (int a = 0; a < width; ++a) {
-          auto* const out = reinterpret_cast<typename RecordTypes<n>::Stored*>(first + a * n);
-          *out += value[0][a] * row + derivative[0][a] * row_x;
+          double* const out = first + a * n;
+          Record<n> sum;
+          load_record<n>(out, sum);
+          sum = sum + value[0][a] * row + derivative[0][a] * row_x;
+          store_record<n>(sum, out);
         }
       }
     }
@@ -108,7 +120,8 @@ struct TensorStencil {
             records + static_cast<std::ptrdiff_t>(base + b * stride[1] + c * stride[2]) * n;
         Record<n> row{}, row_x{};
         for (int a = 0; a < width; ++a) {
-          const Record<n> in = *reinterpret_cast<const typename RecordTypes<n>::Stored*>(first + a * n);
+          Record<n> in;
+          load_record<n>(first + a * n, in);
           row += value[0][a] * in;
           if constexpr (with_gradient) row_x += derivative[0][a] * in;
         }

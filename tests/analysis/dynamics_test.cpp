@@ -55,6 +55,7 @@ TEST(VibratingBar, HasItsFrequencyAndAmplitudeInEveryExplicitScheme) {
   for (const bool gimp : {false, true})
     for (const MassKind kind : all_masses)
       for (const StressUpdate scheme : all_schemes) {
+        if (!solvable(kind, gimp)) continue;
         const auto v = run_explicit(16, gimp, kind, scheme, VelocityUpdate::flip, 2.2);
         EXPECT_NEAR(v.frequency() / omega, 1.0, 5e-3) << gimp << static_cast<int>(kind) << static_cast<int>(scheme);
         EXPECT_NEAR(v.turn(), -1.0, 2e-2) << gimp << static_cast<int>(kind) << static_cast<int>(scheme);
@@ -109,6 +110,7 @@ Vibration run_newmark(double damping, int steps_per_period, double periods, bool
 TEST(Newmark, HasTheFrequencyOfTheTrapezoidalRule) {
   for (const bool gimp : {false, true})
     for (const bool ghost : {false, true}) {
+      if (gimp && !ghost) continue;
       const auto v = run_newmark(0.0, 40, 2.2, gimp, ghost);
       const double step = 2 * M_PI / 40;  // omega dt; the rule's own frequency is 2 atan(omega dt / 2) / dt
       EXPECT_NEAR(v.frequency() / omega, 2 * std::atan(0.5 * step) / step, 2e-3);
@@ -117,9 +119,9 @@ TEST(Newmark, HasTheFrequencyOfTheTrapezoidalRule) {
 
 TEST(Newmark, KeepsTheEnergyWithoutAndLosesItWithNumericalDamping) {
   for (const bool gimp : {false, true}) {
-    const auto kept = run_newmark(0.0, 40, 2.0, gimp, false);
+    const auto kept = run_newmark(0.0, 40, 2.0, gimp, gimp);
     for (const double e : kept.energies) ASSERT_NEAR(e / kept.energies.front(), 1.0, 1e-6) << gimp;
-    const auto lost = run_newmark(0.1, 20, 3.0, gimp, false);
+    const auto lost = run_newmark(0.1, 20, 3.0, gimp, gimp);
     for (std::size_t k = 1; k < lost.energies.size(); ++k) ASSERT_LE(lost.energies[k], lost.energies[k - 1] * (1 + 1e-3));
     EXPECT_LT(lost.energies.back(), 0.5 * lost.energies.front());
     EXPECT_GT(lost.energies.back(), 0.0);
@@ -150,7 +152,7 @@ TEST(Walls, ThatMoveCarryABodyAlong) {
   for (const bool by_displacement : {false, true})
     for (const MassKind kind : all_masses)
       for (const StressUpdate scheme : all_schemes) {
-        auto o = on_grid<2>({0, 0}, {1, 1}, {4, 4}, true);
+        auto o = on_grid<2>({0, 0}, {1, 1}, {4, 4}, kind != MassKind::consistent);
         add_box<2>(o, {0.25, 0.25}, {0.75, 0.75}, Hencky{1000.0, 1e5, 0.3});
         o.bodies[0].velocity = {0.2, 0.0};
         Curve position;
@@ -174,7 +176,7 @@ TEST(Walls, ThatMoveCarryABodyAlong) {
 TEST(Walls, DoTheWorkThatTheBodyGains) {
   for (const bool by_displacement : {false, true})
     for (const MassKind kind : all_masses) {
-      auto o = bar(16, true, Hencky{rho, E, 0.0});
+      auto o = bar(16, kind != MassKind::consistent, Hencky{rho, E, 0.0});
       // From rest to 0.1 m/s in 0.01 s, then steady; the bar is hit at x = 0.
       Curve velocity;
       velocity.times = {0.0, 0.01, 1.0}, velocity.values = {0.0, 0.1, 0.1};
@@ -203,7 +205,7 @@ TEST(Walls, DoTheWorkThatTheBodyGains) {
 
 TEST(Tractions, GiveTheirImpulse) {
   for (const MassKind kind : all_masses) {
-    auto o = on_grid<2>({-1, -1}, {2, 2}, {12, 12}, true);
+    auto o = on_grid<2>({-1, -1}, {2, 2}, {12, 12}, kind != MassKind::consistent);
     add_box<2>(o, {0, 0}, {1, 1}, Hencky{1000.0, 1e5, 0.3});
     TractionOptions t;
     t.label = "push", t.body = "body 0", t.corner = {1, 0}, t.edges = {{0, 1}}, t.points = {8}, t.traction = {300.0, 70.0};

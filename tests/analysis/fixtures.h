@@ -116,6 +116,10 @@ constexpr StressUpdate all_schemes[] = {StressUpdate::usf, StressUpdate::usl, St
 enum class MassKind { lumped, consistent, ghost };
 constexpr MassKind all_masses[] = {MassKind::lumped, MassKind::consistent, MassKind::ghost};
 
+/// The consistent mass alone is only solvable while no function hangs on the tip of a domain (Coombs 2023, section
+/// 2.3): with linear functions and points that stay in their cells.
+inline bool solvable(MassKind kind, bool gimp) { return kind != MassKind::consistent || !gimp; }
+
 inline Mass apply(MassKind kind, ModelOptions& o) {
   o.stabilisation.reset();
   if (kind == MassKind::ghost) o.stabilisation = GhostOptions{};
