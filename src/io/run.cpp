@@ -127,7 +127,9 @@ class Run {
   /// Before every step.
   bool rebalance() {
     point_steps_ += static_cast<double>(local_points());
-    return Session::size() > 1 && model_.step % rebalance_every == 0 && model_.rebalance();
+    if (Session::size() == 1 || model_.step % rebalance_every != 0) return false;
+    model_.settle();  // points that left the grid have no cell to count
+    return model_.rebalance();
   }
   int local_points() const {
     int n = 0;
