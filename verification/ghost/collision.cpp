@@ -31,10 +31,7 @@ ModelOptions collision_options(const CollisionCase& collision) {
   options.basis = GimpOptions{};
   options.bodies = {ghost_body("lower", points, 0.0, 0.0, law), ghost_body("upper", points, 0.6, 0.6, law)};
   options.bodies[0].velocity = {0.1, 0.1}, options.bodies[1].velocity = {-0.1, -0.1};
-  if (collision.mass == Mass::consistent) {
-    options.stabilisation.emplace();
-    options.stabilisation->mass = quarter;
-  }
+  if (collision.mass == Mass::consistent) options.stabilisation = mass_stabilisation(density(law));
   return options;
 }
 
