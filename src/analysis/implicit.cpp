@@ -171,8 +171,8 @@ void Implicit<dim>::start_inertia(double dt) {
   map(
       [](const auto& points) -> const auto& { return points.acceleration; }, acceleration_,
       [](const auto&) { return 0.0; });
-  // What the momentum at the start would take to stop in the step: forces are differences of terms of this size, so
-  // it belongs to the scale of the residual, or nothing converges when all forces pass through zero.
+  // What the momentum at the start would take to stop in the step: forces are differences of terms of this
+  // size, so it belongs to the scale of the residual, or nothing converges when all forces pass through zero.
   std::vector<double> inertia(n * dim);
   const std::vector<double> none(n * dim, 0.0);
   mass_.multiply_columns(acceleration(none, dt), inertia, dim);
