@@ -57,7 +57,7 @@ TEST(RunHistory, CriticalTimeStepIsTheEdgeOfStability) {
   EXPECT_LT(condition, 1e4);
   const auto growth = [&](double share) {
     const std::string name = fmt::format("{}", share);
-    run_case(read(trembling(share * critical, 40, "consistent", "")), folder / name, Talk::quiet);
+    run_case(read(trembling(share * critical, 50, "consistent", "")), folder / name, Talk::quiet);
     const auto total = column(folder / (name + "/history.csv"), "total energy [J/m]");
     return *std::max_element(total.begin(), total.end()) / total.front();
   };
