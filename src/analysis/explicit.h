@@ -27,6 +27,7 @@ class Explicit {
   /// Errors (RunError): mass solve failed.
   void measure(EnergyRecord& record);
 
+  const ExplicitOptions& options() const { return options_; }
   /// Start-of-step velocity (n_functions x dim) and, for the consistent mass, the matrix with Ghost of the
   /// last step.
   std::span<const double> start_velocity() const { return velocity_; }

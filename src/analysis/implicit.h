@@ -45,6 +45,7 @@ class Implicit {
 
   NewtonReport attempt(double dt);
   void set_up(double dt);
+  void number_unknowns();
   void external_force(double t, std::vector<double>& force) const;
   void start_inertia(double dt);
   double residual(std::span<const double> u, double dt);
@@ -61,6 +62,7 @@ class Implicit {
   NewtonOptions newton_;
   std::optional<Newmark> newmark_;
   int evaluations_ = 0;
+  double inertia_scale_ = 0.0;  // N
 
   std::vector<StoredStencils<dim>> stencils_;
   std::vector<char> active_;

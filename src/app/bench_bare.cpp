@@ -8,20 +8,6 @@
 
 namespace wisp {
 
-double triad_bandwidth() {
-  constexpr std::size_t n = std::size_t{1} << 23;  // 64 MB an array
-  std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
-  double best = 1e30;
-  for (int pass = 0; pass < 6; ++pass) {
-    const double start = processor_seconds();
-    const double s = 1.0 + pass;
-    for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + s * c[i];
-    best = std::min(best, processor_seconds() - start);
-    if (a[n / 2] != 1.0 + 2.0 * s) return 0.0;  // so that no compiler leaves the loop out
-  }
-  return 3.0 * static_cast<double>(n * sizeof(double)) / best;
-}
-
 namespace {
 
 /// The bare kernel. Stress: 2D xx, yy, xy; 3D xx, yy, zz, xy, yz, zx.

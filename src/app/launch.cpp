@@ -47,7 +47,8 @@ void launch_ranks(int ranks, const std::vector<std::string>& arguments) {
     input_error("--ranks: mpirun has started this program already, with its own number of ranks");
   setenv("OMP_NUM_THREADS", "1", 1);
   setenv("OPENBLAS_NUM_THREADS", "1", 1);
-  if (isatty(STDOUT_FILENO) != 0) {  // ranks write into a pipe: tell them that a person watches, and how wide
+  unsetenv("WISP_TERMINAL");
+  if (isatty(STDOUT_FILENO) != 0) {  // the ranks cannot see it: tell them that a person watches, and how wide
     winsize size{};
     const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
     setenv("WISP_TERMINAL", std::to_string(known ? size.ws_col : 80).c_str(), 1);

@@ -51,7 +51,8 @@ class Gimp : public GimpOptions {
   inline __attribute__((always_inline)) int tabulate_direction(int d, double x, double l,
                                                                std::array<double, width>& value,
                                                                std::array<double, width>& derivative) const {
-    const double* lines = grid_->lines(d);
+    const double* const lines = grid_->lines(d);
+    const double* const per_spacing = grid_->per_spacing(d);
     const double a = x - l, b = x + l;
     int first = grid_->locate(d, a);
     const double guard = touching * (lines[first + 1] - lines[first]);
@@ -73,25 +74,25 @@ class Gimp : public GimpOptions {
       const int cell = base + c;
       const double from = std::max(a, lines[cell]), to = std::min(b, lines[cell + 1]);
       double share = (to - from > guard && cell > first) ? (to - from) * per_length : 0.0;
-      add_cell(lines, cell, c, 0.5 * (from + to), share, value, derivative);
+      add_cell(lines, per_spacing, cell, c, 0.5 * (from + to), share, value, derivative);
       rest -= share;
     }
     if constexpr (width == 3) {
       const double from = std::max(a, lines[base]), to = std::max(from, std::min(b, lines[base + 1]));
-      add_cell(lines, base, 0, 0.5 * (from + to), rest, value, derivative);
+      add_cell(lines, per_spacing, base, 0, 0.5 * (from + to), rest, value, derivative);
     } else {
       const double from = std::max(a, lines[first]), to = std::max(from, std::min(b, lines[first + 1]));
-      add_cell(lines, first, first - base, 0.5 * (from + to), rest, value, derivative);
+      add_cell(lines, per_spacing, first, first - base, 0.5 * (from + to), rest, value, derivative);
     }
     if (base < 0 || base + width - 1 > grid_->cells(d)) fold(d, base, value, derivative);
     return base;
   }
 
-  static inline __attribute__((always_inline)) void add_cell(const double* lines, int cell, int k,
-                                                             double middle, double share,
+  static inline __attribute__((always_inline)) void add_cell(const double* lines, const double* per_spacing,
+                                                             int cell, int k, double middle, double share,
                                                              std::array<double, width>& value,
                                                              std::array<double, width>& derivative) {
-    const double per_h = 1.0 / (lines[cell + 1] - lines[cell]);
+    const double per_h = per_spacing[cell];
     const double r = (middle - lines[cell]) * per_h;
     const auto i = static_cast<std::size_t>(k);
     value[i] += share * (1.0 - r);

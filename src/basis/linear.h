@@ -33,7 +33,7 @@ class Linear : public LinearOptions {
       i = i < grid_->cells(d) ? i : grid_->cells(d) - 1;  // the upper edge belongs to the last cell
       i = i > 0 ? i : 0;
       const double* lines = grid_->lines(d);
-      const double per_h = 1.0 / (lines[i + 1] - lines[i]);
+      const double per_h = grid_->per_spacing(d)[i];
       const double r = (x[d] - lines[i]) * per_h;
       s.value[k] = {1.0 - r, r};
       s.derivative[k] = {-per_h, per_h};

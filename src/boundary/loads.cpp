@@ -162,7 +162,8 @@ void Traction<dim>::move(const Space<dim>& space, std::span<const double> field,
     position_[s] += factor * u;
     for (int d = 0; d < dim; ++d)
       if (const int c = space.grid().locate_inside(d, position_[s][d]); c < 0 || c >= space.grid().cells(d))
-        run_error("traction '{}': a surface point left the grid at {} = {}; use a larger grid", name(), "xyz"[d], position_[s][d]);
+        run_error("traction '{}': a surface point left the grid at {} = {}; use a larger grid", name(),
+                  "xyz"[d], position_[s][d]);
     deformation_gradient_[s] = (Mat<dim>::Identity() + factor * gradient) * deformation_gradient_[s];
   }
 }

@@ -21,15 +21,17 @@ std::string duration_text(double seconds) {
 
 namespace {
 
-/// Columns of the terminal behind a file, 0 if there is none. Ranks write into a pipe: the process that
-/// started them tells the width in WISP_TERMINAL.
+/// Columns of the terminal behind a file, 0 if there is none. mpirun gives its ranks a pseudo terminal
+/// whatever its own output is, so there only the word of the process that started them counts: the width in
+/// WISP_TERMINAL.
 int terminal_width(std::FILE* out) {
-  if (isatty(fileno(out)) != 0) {
-    winsize size{};
-    return ioctl(fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) {
+    const char* told = out == stdout ? std::getenv("WISP_TERMINAL") : nullptr;
+    return told ? std::max(0, std::atoi(told)) : 0;
   }
-  const char* told = out == stdout ? std::getenv("WISP_TERMINAL") : nullptr;
-  return told ? std::max(0, std::atoi(told)) : 0;
+  if (isatty(fileno(out)) == 0) return 0;
+  winsize size{};
+  return ioctl(fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
 }
 
 }  // namespace

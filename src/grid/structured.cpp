@@ -41,6 +41,9 @@ void StructuredGrid<dim>::set_lines(int d, const std::vector<double>& lines) {
   for (int i = padding; i > 0; --i) padded.push_back(lines.front() - i * first);
   padded.insert(padded.end(), lines.begin(), lines.end());
   for (int i = 1; i <= padding; ++i) padded.push_back(lines.back() + i * last);
+  per_spacing_[d].clear();
+  for (std::size_t i = 1; i < padded.size(); ++i)
+    per_spacing_[d].push_back(1.0 / (padded[i] - padded[i - 1]));
 
   const double length = lines.back() - lines.front();
   double shortest = length;

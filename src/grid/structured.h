@@ -33,6 +33,8 @@ class StructuredGrid {
   /// Lines of direction d shifted so that `lines(d)[i]` is line i; valid from -padding to cells + padding.
   const double* lines(int d) const { return lines_[d].data() + padding; }
   double spacing(int d, int cell) const { return line(d, cell + 1) - line(d, cell); }
+  /// 1/m, for kernels: `per_spacing(d)[c]` is the inverse of spacing(d, c), -padding <= c < cells + padding.
+  const double* per_spacing(int d) const { return per_spacing_[d].data() + padding; }
   Vec<dim> lower() const;
   Vec<dim> upper() const;
   double shortest_side() const { return shortest_side_; }
@@ -62,7 +64,7 @@ class StructuredGrid {
   void set_lines(int d, const std::vector<double>& lines);
 
   Multi cells_ = Multi::Zero();
-  std::array<std::vector<double>, dim> lines_;
+  std::array<std::vector<double>, dim> lines_, per_spacing_;
   std::array<double, dim> origin_{};
   std::array<double, dim> per_length_{};
   std::array<double, dim> limit_{};

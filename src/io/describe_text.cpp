@@ -75,7 +75,9 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 std::string type_text(const Kind& kind, const TypeText& type) {
   std::string text = fmt::format("{} {}: {}\n", header(kind),
                                  kind.is_variant ? "type = " + toml_text(type.name) : "", type.summary);
-  if (!kind.is_variant) text = fmt::format("{}: {}\n", header(kind), type.summary);
+  if (!kind.is_variant)  // the whole file has no header of its own
+    text = fmt::format("{}: {}\n", kind.name == type.name && kind.name == "case" ? kind.name : header(kind),
+                       type.summary);
   if (!type.source.empty()) text += "Source: " + type.source + "\n";
   if (type.keys.empty()) return text + "No keys.\n";
   std::vector<std::vector<std::string>> rows{{"key", "value", "unit", "default", "range", "meaning"}};

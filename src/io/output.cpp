@@ -176,6 +176,8 @@ HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : ou
         titles_.push_back(fmt::format("{} {} {} [{}]", plain(track.label), what, "xyz"[d], unit));
   for (const auto& stage : c.stages) newton_ |= !std::holds_alternative<ExplicitOptions>(stage);
   if (newton_) titles_.insert(titles_.end(), {"iterations", "residual", "cuts"});
+  if (output_.condition_numbers) titles_.push_back("condition number [-]");
+  if (output_.critical_time_step) titles_.push_back("critical time step [s]");
   removal_ = c.grid.leaving == Leaving::remove;
   if (removal_) titles_.push_back("points removed");
 }
@@ -198,6 +200,8 @@ std::vector<double> HistoryColumns<dim>::values(const Row<dim>& row, const Model
     v.push_back(iterated ? row.newton->residuals.back() : 0.0);
     v.push_back(row.newton ? row.newton->cuts : 0);
   }
+  if (output_.condition_numbers) v.push_back(row.condition);
+  if (output_.critical_time_step) v.push_back(row.critical_time_step);
   if (removal_) v.push_back(static_cast<double>(model.removed));
   return v;
 }

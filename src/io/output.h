@@ -1,5 +1,6 @@
 // What a run shows: the points as a picture, the scene around them, the columns of its history.
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ struct Row {
   std::vector<Vec<dim>> reactions;       ///< N
   std::vector<Vec<dim>> tracked;         ///< position, displacement, velocity of each tracked point
   std::optional<ImplicitRecord> newton;  ///< implicit steps
+  double condition = std::numeric_limits<double>::quiet_NaN();           ///< of the mass or stiffness
+  double critical_time_step = std::numeric_limits<double>::quiet_NaN();  ///< s
 };
 
 /// The columns of history.csv and the numbers below them.

@@ -5,6 +5,7 @@
 
 #include "analysis/explicit.h"
 #include "analysis/implicit.h"
+#include "analysis/spectra.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "io/checkpoint_state.h"
@@ -83,7 +84,10 @@ class Run {
     if (same_ranks) warm_ = {first.doubles("warm velocity"), first.doubles("warm acceleration")};
     results_.emplace(
         ResultsFolder::resume(folder_, columns_.titles(), model_.time, first.integer("last row")));
-    tell(fmt::format("going on from step {} at t = {:.6g} s", model_.step, model_.time));
+    if (stage_ == case_.stages.size())
+      tell(fmt::format("the run has ended already, with step {} at t = {:.6g} s", model_.step, model_.time));
+    else
+      tell(fmt::format("going on from step {} at t = {:.6g} s", model_.step, model_.time));
     go();
   }
 
@@ -123,7 +127,9 @@ class Run {
   /// Before every step.
   bool rebalance() {
     point_steps_ += static_cast<double>(local_points());
-    return Session::size() > 1 && model_.step % rebalance_every == 0 && model_.rebalance();
+    if (Session::size() == 1 || model_.step % rebalance_every != 0) return false;
+    model_.settle();  // points that left the grid have no cell to count
+    return model_.rebalance();
   }
   int local_points() const {
     int n = 0;
@@ -139,6 +145,7 @@ class Run {
   template <class Analysis>
   void add_checkpoint(Analysis& analysis, bool stage_is_over);
   void add_last_row(Explicit<dim>& analysis);
+  void measure_spectrum(Mass mass, Row<dim>& row);
 
   bool row_due() const {
     return results_->last_row() < model_.step && model_.step % case_.output.history_every == 0;
@@ -162,7 +169,7 @@ class Run {
   std::optional<WarmStart> warm_;       ///< of the checkpoint, until its stage goes on
   double last_dt_ = 0.0;                ///< s
   std::int64_t told_removed_ = 0;
-  std::int64_t checkpoint_step_ = -1;    ///< of the newest checkpoint
+  std::int64_t checkpoint_step_ = -1;  ///< of the newest checkpoint
   double point_steps_ = 0.0;
   std::vector<StageTimes> times_;
 };
@@ -245,9 +252,21 @@ void Run<dim>::add_last_row(Explicit<dim>& analysis) {
   Row<dim> row;
   row.dt = last_dt_;
   if (case_.output.energies) analysis.measure(row.energy);
+  measure_spectrum(analysis.options().mass, row);
   row.reactions = model_.reactions;
   row.tracked = tracked_.now(model_);
   add_row(model_.step, model_.time, row);
+}
+
+template <int dim>
+void Run<dim>::measure_spectrum(Mass mass, Row<dim>& row) {
+  const OutputOptions& output = case_.output;
+  if (!output.condition_numbers && !output.critical_time_step) return;
+  const auto timer = model_.timers.start("condition number, critical time step");
+  model_.settle();
+  ExplicitSpectrum<dim> spectrum(model_, mass);
+  if (output.condition_numbers) row.condition = spectrum.condition();
+  if (output.critical_time_step) row.critical_time_step = spectrum.critical_time_step();
 }
 
 /// A row of an explicit step tells of the state that it starts from: energies at the time of its forces.
@@ -258,15 +277,22 @@ void Run<dim>::stage(const ExplicitOptions& options) {
   warm_.reset();
   Progress progress(stage_title(),
                     talk_ == Talk::normal ? Progress::Style::automatic : Progress::Style::quiet);
+  std::string remark;  // energies of the last row
   while (model_.time < stage_end()) {
     if (rebalance()) analysis.warm_velocity().clear(), analysis.warm_acceleration().clear();
     const double time = model_.time, work = model_.external_work;
     const std::int64_t step = model_.step;
     const bool row_is_due = row_due(), energies = row_is_due && case_.output.energies;
     Row<dim> row;
-    if (row_is_due) row.tracked = tracked_.now(model_);
+    if (row_is_due) row.tracked = tracked_.now(model_), measure_spectrum(options.mass, row);
     row.dt = last_dt_ = analysis.time_step(stage_end());
-    analysis.step(row.dt, energies ? &row.energy : nullptr);
+    try {
+      analysis.step(row.dt, energies ? &row.energy : nullptr);
+    } catch (const RunError& error) {  // the points may be half way through the step: older states count
+      if (checkpoint_step_ < 0) throw;
+      run_error("{}; the last checkpoint is that of step {}: wisp resume {}", error.what(), checkpoint_step_,
+                folder_.string());
+    }
     ++step_in_stage_;
     const bool last =
         options.steps ? step_in_stage_ == *options.steps : stage_end() - model_.time <= 1e-9 * row.dt;
@@ -276,10 +302,10 @@ void Run<dim>::stage(const ExplicitOptions& options) {
       row.reactions = model_.reactions;
       add_row(step, time, row);
     }
+    if (energies)
+      remark = fmt::format("  kinetic {:.4g} J  strain {:.4g} J", row.energy.kinetic, row.energy.strain);
     if (progress.wants_update(share_done()))
-      progress.update(share_done(), energies ? fmt::format("step {}  kinetic {:.4g} J  strain {:.4g} J",
-                                                           model_.step, row.energy.kinetic, row.energy.strain)
-                                             : fmt::format("step {}", model_.step));
+      progress.update(share_done(), fmt::format("step {}{}", model_.step, remark));
     after_step(analysis, time, progress);
   }
 }
@@ -317,6 +343,8 @@ void Run<dim>::stage(const Options& options) {
     model_.time = target;
     if (row_due() || next == options.steps) {
       row.reactions = model_.reactions, row.tracked = tracked_.now(model_);
+      if (case_.output.condition_numbers)
+        row.condition = condition_number(analysis.stiffness(), analysis.unknowns());
       add_row(model_.step, model_.time, row);
     }
     if (progress.wants_update(share_done()))

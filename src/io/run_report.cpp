@@ -10,7 +10,7 @@
 namespace wisp {
 
 double triad_bandwidth() {
-  constexpr std::size_t n = std::size_t{1} << 21;  // 48 MB in three arrays: beyond most caches
+  constexpr std::size_t n = std::size_t{1} << 22;  // 96 MB in three arrays: beyond most caches
   std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
   double best = 0.0;
   for (int repeat = 0; repeat < 4; ++repeat) {

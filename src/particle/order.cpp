@@ -1,37 +1,78 @@
 #include "particle/order.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace wisp {
+
+namespace {
+
+/// Local cell index of a point that is not plainly in a cell of this rank: on the upper edge of the grid,
+/// with another rank (-2) or outside (-1).
+template <int dim>
+int locate_at_edge(const Vec<dim>& x, const StructuredGrid<dim>& grid, const Window<dim>& window,
+                   Location& found) {
+  MultiIndex<dim> cell;
+  for (int d = 0; d < dim; ++d) {
+    cell[d] = grid.locate_inside(d, x[d]);
+    if (cell[d] < 0 || cell[d] >= grid.cells(d)) return ++found.outside, -1;
+  }
+  if (!window.owns_cell(cell)) return ++found.elsewhere, -2;
+  return window.cell_index(cell);
+}
+
+}  // namespace
 
 template <int dim>
 Location locate(Particles<dim>& points, const StructuredGrid<dim>& grid, const Window<dim>& window) {
   Location found;
   const int n = points.size();
   points.cell.resize(static_cast<std::size_t>(n));
+  const Vec<dim>* const position = points.position.data();
+  int* const cells = points.cell.data();
+  const IndexBox<dim> owned = window.owned_cells();
+  const MultiIndex<dim> lower = window.cells().lower, strides = window.cell_strides();
   int before = -1;
   for (int p = 0; p < n; ++p) {
-    const Vec<dim>& x = points.position[static_cast<std::size_t>(p)];
-    MultiIndex<dim> cell;
-    bool inside = true, here = true;
+    const Vec<dim>& x = position[p];
+    bool here = true;
+    int index = 0;
     for (int d = 0; d < dim; ++d) {
-      cell[d] = grid.locate_inside(d, x[d]);
-      inside &= cell[d] >= 0 && cell[d] < grid.cells(d);
-      here &= cell[d] >= window.owned_cells().lower[d] && cell[d] < window.owned_cells().upper[d];
+      const int c = grid.locate(d, x[d]);
+      here &= c >= owned.lower[d] && c < owned.upper[d];
+      index += (c - lower[d]) * strides[d];
     }
-    int index = -1;
-    if (inside && here) {
-      index = window.cell_index(cell);
+    if (!here) index = locate_at_edge(x, grid, window, found);
+    if (index >= 0) {
       found.disorder += index < before;
       before = index;
-    } else if (inside) {
-      index = -2;
-      ++found.elsewhere;
-    } else {
-      ++found.outside;
     }
-    points.cell[static_cast<std::size_t>(p)] = index;
+    cells[p] = index;
   }
   return found;
 }
+
+namespace {
+
+/// field[p] = old field[from[p]]. `reach` is the most by which from[p] lies below p: as much of the
+/// overwritten values is kept aside, in a ring that stays in the cache as points do not go far.
+template <class T>
+void permute(std::vector<T>& field, const std::vector<int>& from, std::size_t first, std::size_t last,
+             std::size_t reach) {
+  constexpr std::size_t block = 1024;
+  const std::size_t mask = std::bit_ceil(reach + block) - 1;
+  std::vector<T> kept(mask + 1);
+  for (std::size_t start = first; start < last; start += block) {
+    const std::size_t end = std::min(start + block, last);
+    for (std::size_t p = start; p < end; ++p) kept[p & mask] = field[p];
+    for (std::size_t p = start; p < end; ++p) {
+      const auto source = static_cast<std::size_t>(from[p]);
+      field[p] = source < end ? kept[source & mask] : field[source];
+    }
+  }
+}
+
+}  // namespace
 
 template <int dim>
 void reorder(Body<dim>& body, int n_cells) {
@@ -44,11 +85,16 @@ void reorder(Body<dim>& body, int n_cells) {
   for (std::size_t p = 0; p < n; ++p)
     from[static_cast<std::size_t>(start[static_cast<std::size_t>(cell[p])]++)] = static_cast<int>(p);
 
+  // The points that move at all lie in [first, last).
+  std::size_t first = 0, last = n, reach = 0;
+  while (first < n && from[first] == static_cast<int>(first)) ++first;
+  while (last > first && from[last - 1] == static_cast<int>(last - 1)) --last;
+  for (std::size_t p = first; p < last; ++p)
+    if (const auto source = static_cast<std::size_t>(from[p]); source < p)
+      reach = std::max(reach, p - source);
+  if (first == last) return;
   const auto move = [&](std::string_view, auto& field) {
-    if (field.empty()) return;
-    std::decay_t<decltype(field)> scratch(field.size());
-    for (std::size_t p = 0; p < n; ++p) scratch[p] = field[static_cast<std::size_t>(from[p])];
-    field.swap(scratch);
+    if (!field.empty()) permute(field, from, first, last, reach);
   };
   body.for_each_field(move);
   move("cell", body.points.cell);

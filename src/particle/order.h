@@ -18,7 +18,7 @@ template <int dim>
 Location locate(Particles<dim>& points, const StructuredGrid<dim>& grid, const Window<dim>& window);
 
 /// Sorts the points (and their material states) by cell; points of one cell keep their order. Moves one field
-/// at a time through a scratch array.
+/// at a time through a scratch array as long as the points' way.
 template <int dim>
 void reorder(Body<dim>& body, int n_cells);
 

@@ -22,7 +22,7 @@ struct Particles {
   std::vector<Mat<dim>> deformation_gradient;  ///< F, since the start
   std::vector<Vec<dim>> half_length;           ///< m, of the GIMP domain now (only bases with domains)
   std::vector<Vec<dim>> initial_half_length;   ///< m, at the start (likewise)
-  std::vector<Mat<dim>> affine;                ///< APIC: sum_i phi_i v_i (x_i - x_p)^T, m2/s (only APIC)
+  std::vector<Mat<dim>> affine;                ///< APIC: C of v + C (x - x_p), 1/s (only APIC)
   std::vector<Vec<dim>> acceleration;          ///< m/s2 (only implicit dynamics)
 
   int size() const { return static_cast<int>(position.size()); }

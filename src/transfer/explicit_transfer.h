@@ -7,15 +7,15 @@
 
 namespace wisp {
 
-/// Sums over points at a grid function, one record of 1 + 2 dim numbers a function: mass (kg), momentum (kg
-/// m/s), force (N; internal plus body force).
+/// Sums over points at a grid function, one record a function: mass (kg), momentum (kg m/s), force (N;
+/// internal plus body force), 1 + 2 dim numbers and zeros up to a power of two.
 template <int dim>
-inline constexpr int sums_stride = 1 + 2 * dim;
+inline constexpr int sums_stride = 8;
 
-/// Motion of a grid function, one record of 2 dim numbers: velocity at the end of the step (m/s),
-/// acceleration (m/s2).
+/// Motion of a grid function, one record: velocity at the end of the step (m/s), acceleration (m/s2), 2 dim
+/// numbers and zeros up to a power of two.
 template <int dim>
-inline constexpr int motion_stride = 2 * dim;
+inline constexpr int motion_stride = dim == 2 ? 4 : 8;
 
 enum class Gather { inertia, force, both };
 

@@ -26,12 +26,25 @@ Mat<dim> affine_field(const Space<dim>& space, const Stencil& stencil, const Vec
   return b;
 }
 
+/// a b, written out: Eigen calls a function for it.
+template <int dim>
+inline Mat<dim> product(const Mat<dim>& a, const Mat<dim>& b) {
+  Mat<dim> c;
+  for (int j = 0; j < dim; ++j)
+    for (int i = 0; i < dim; ++i) {
+      double sum = a(i, 0) * b(0, j);
+      for (int k = 1; k < dim; ++k) sum += a(i, k) * b(k, j);
+      c(i, j) = sum;
+    }
+  return c;
+}
+
 /// One pass over the points. `strain_from_motion`: strains use the velocity of `motion`, gathered once for
 /// all.
 template <int dim, bool with_velocity, bool with_move, bool with_strain, bool strain_from_motion, class Basis,
           class Group>
-void update_points(const Basis basis, const Space<dim>& space, Particles<dim>& points, Group& group,
-                   const PointUpdate& update) {
+__attribute__((flatten)) void update_points(const Basis basis, const Space<dim>& space,
+                                            Particles<dim>& points, Group& group, const PointUpdate& update) {
   using Law = std::decay_t<decltype(group.law)>;
   constexpr bool gather_motion = with_velocity || with_move || (with_strain && strain_from_motion);
   const Law law = group.law;  // a copy: the compiler then knows that no point changes it
@@ -44,24 +57,25 @@ void update_points(const Basis basis, const Space<dim>& space, Particles<dim>& p
     const auto k = static_cast<std::size_t>(p);
     const auto stencil =
         basis.tabulate(points.position[k], Basis::uses_domains ? points.half_length[k] : none);
-    Vec<dim> v = Vec<dim>::Zero(), a = Vec<dim>::Zero();
-    Mat<dim> gradient = Mat<dim>::Zero();
-    stencil.for_each([&](int, int i, double phi, const Vec<dim>& dphi) {
-      if constexpr (gather_motion) {
-        const double* const m = motion + i * motion_stride<dim>;
-        for (int d = 0; d < dim; ++d) {
-          v[d] += phi * m[d];
-          if constexpr (with_velocity) a[d] += phi * m[dim + d];
-          if constexpr (with_strain && strain_from_motion)
-            for (int e = 0; e < dim; ++e) gradient(d, e) += m[d] * dphi[e];
-        }
+    Vec<dim> v, a;
+    Mat<dim> gradient;
+    if constexpr (gather_motion) {
+      constexpr bool strain = with_strain && strain_from_motion;
+      const auto sum = sum_of_functions<dim, motion_stride<dim>, strain>(stencil, motion);
+      for (int d = 0; d < dim; ++d) {
+        v[d] = sum.value[d], a[d] = sum.value[dim + d];
+        if constexpr (strain)
+          for (int e = 0; e < dim; ++e) gradient(d, e) = sum.gradient[e][d];
       }
-      if constexpr (with_strain && !strain_from_motion) {
-        const double* const m = strain_velocity + i * dim;
+    }
+    if constexpr (with_strain && !strain_from_motion) {
+      gradient.setZero();
+      stencil.for_each([&](int, int i, double, const Vec<dim>& dphi) {
+        const double* const u = strain_velocity + i * dim;
         for (int d = 0; d < dim; ++d)
-          for (int e = 0; e < dim; ++e) gradient(d, e) += m[d] * dphi[e];
-      }
-    });
+          for (int e = 0; e < dim; ++e) gradient(d, e) += u[d] * dphi[e];
+      });
+    }
     if constexpr (with_velocity) {
       if (update.apic)
         points.affine[k] = affine_field<dim, Basis>(space, stencil, points.position[k], motion);
@@ -73,7 +87,7 @@ void update_points(const Basis basis, const Space<dim>& space, Particles<dim>& p
     }
     if constexpr (with_strain) {
       const Kinematics<dim> kinematics{Mat<dim>::Identity() + dt * gradient, dt};
-      points.deformation_gradient[k] = kinematics.dF * points.deformation_gradient[k];
+      points.deformation_gradient[k] = product<dim>(kinematics.dF, points.deformation_gradient[k]);
       law.template stress<dim>(kinematics, group.old[k], group.old[k]);
       if constexpr (Basis::uses_domains && Law::finite_strain)
         if (update.domains)
@@ -133,8 +147,8 @@ void follow_stretch(Body<dim>& body) {
   Particles<dim>& points = body.points;
   if (!body.finite_strain()) return;
   for (std::size_t p = 0; p < points.half_length.size(); ++p)
-    points.half_length[p] =
-        points.initial_half_length[p].cwiseProduct(right_stretch<dim>(points.deformation_gradient[p]).diagonal());
+    points.half_length[p] = points.initial_half_length[p].cwiseProduct(
+        right_stretch<dim>(points.deformation_gradient[p]).diagonal());
 }
 
 template <int dim>

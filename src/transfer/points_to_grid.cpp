@@ -6,48 +6,44 @@ namespace wisp {
 
 namespace {
 
-/// Half-lengths that bases without domains are given.
-template <int dim>
-inline const Vec<dim>* domain(const Particles<dim>& points) {
-  return points.half_length.data();
-}
-
+/// One pass over the points, every point's numbers spread over its functions as records.
 template <int dim, Gather what, bool apic, class Basis, class State>
-void add_points(const Basis basis, const Space<dim>& space, const Particles<dim>& points,
-                const std::vector<State>& states, const Vec<dim> gravity, double* const sums) {
+__attribute__((flatten)) void add_points(const Basis basis, const Space<dim>& space,
+                                         const Particles<dim>& points, const std::vector<State>& states,
+                                         const Vec<dim> gravity, double* const sums) {
   constexpr int stride = sums_stride<dim>;
   const int n = points.size();
   const Vec<dim>* const position = points.position.data();
-  const Vec<dim>* const half_length = domain(points);
+  const Vec<dim>* const half_length = points.half_length.data();  // empty where the basis has no domains
   const Vec<dim>* const velocity = points.velocity.data();
   const double* const mass = points.mass.data();
   const double* const volume = points.volume.data();
+  const State* const state = states.data();
   const Vec<dim> none = Vec<dim>::Zero();
   for (int p = 0; p < n; ++p) {
     const auto stencil = basis.tabulate(position[p], Basis::uses_domains ? half_length[p] : none);
     const double m = mass[p];
-    const Vec<dim> mv = m * velocity[p];
-    const Vec<dim> body_force = m * gravity;
-    Mat<dim> tau_v;
-    if constexpr (what != Gather::inertia)
-      tau_v = volume[p] * matrix<dim>(states[static_cast<std::size_t>(p)].stress);
-    stencil.for_each([&](int, int i, double phi, const Vec<dim>& dphi) {
-      double* const s = sums + i * stride;
-      if constexpr (what != Gather::force) {
-        s[0] += phi * m;
-        if constexpr (apic) {
-          const Vec<dim> v =
-              mv + m * (points.affine[static_cast<std::size_t>(p)] * (space.node_position(i) - position[p]));
-          for (int d = 0; d < dim; ++d) s[1 + d] += phi * v[d];
-        } else {
-          for (int d = 0; d < dim; ++d) s[1 + d] += phi * mv[d];
-        }
+    RecordAndGradient<dim, stride> r;
+    if constexpr (what != Gather::force) {
+      r.value[0] = m;
+      if constexpr (!apic)
+        for (int d = 0; d < dim; ++d) r.value[1 + d] = m * velocity[p][d];
+    }
+    if constexpr (what != Gather::inertia) {
+      const Mat<dim> tau = matrix<dim>(state[p].stress);
+      for (int d = 0; d < dim; ++d) {
+        r.value[1 + dim + d] = m * gravity[d];
+        for (int e = 0; e < dim; ++e) r.gradient[e][1 + dim + d] = -volume[p] * tau(d, e);
       }
-      if constexpr (what != Gather::inertia) {
-        const Vec<dim> f = phi * body_force - tau_v * dphi;
-        for (int d = 0; d < dim; ++d) s[1 + dim + d] += f[d];
-      }
-    });
+    }
+    add_to_functions<dim, stride>(stencil, r, sums);
+    if constexpr (apic && what != Gather::force) {
+      const Mat<dim>& affine = points.affine[static_cast<std::size_t>(p)];
+      stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
+        const Vec<dim> v = velocity[p] + affine * (space.node_position(i) - position[p]);
+        for (int d = 0; d < dim; ++d) sums[i * stride + 1 + d] += phi * m * v[d];
+      });
+    }
   }
 }
 

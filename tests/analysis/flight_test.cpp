@@ -9,7 +9,8 @@ using namespace analysis_test;
 
 template <int dim>
 ModelOptions block_in_space(const AnyLaw& law, bool gimp) {
-  auto o = on_grid<dim>(Vec<dim>::Constant(-2.0), Vec<dim>::Constant(2.0), MultiIndex<dim>::Constant(dim == 2 ? 16 : 10), gimp);
+  auto o = on_grid<dim>(Vec<dim>::Constant(-2.0), Vec<dim>::Constant(2.0),
+                        MultiIndex<dim>::Constant(dim == 2 ? 16 : 10), gimp);
   add_box<dim>(o, Vec<dim>::Constant(-0.5), Vec<dim>::Constant(0.5), law);
   return o;
 }
@@ -20,48 +21,64 @@ TEST(FreeFlight, TranslationIsExactAndStressFree) {
   for (const bool gimp : {false, true})
     for (const MassKind kind : all_masses)
       for (const StressUpdate scheme : all_schemes)
-        for (const VelocityUpdate update : {VelocityUpdate::flip, VelocityUpdate::pic, VelocityUpdate::apic}) {
+        for (const VelocityUpdate update :
+             {VelocityUpdate::flip, VelocityUpdate::pic, VelocityUpdate::apic}) {
           auto o = block_in_space<2>(soft, gimp);
           const Mass mass = apply(kind, o);
           const Vec<2> v(3.0, -1.7);
           o.bodies[0].velocity = {v[0], v[1]};
           Model<2> model(o);
           Explicit<2> run(model, explicit_steps(1e-2, mass, scheme, update));
-          // Without Ghost, systems of nearly empty cells answer rounding with a factor of their condition.
-          const double exact = kind == MassKind::consistent ? 1e-6 : 1e-10;
-          for (int k = 0; k < 30; ++k) run.step(1e-2);
+          // Without Ghost no point may leave its cell: see `solvable`.
+          if (!solvable(kind, gimp)) continue;
+          const double dt = kind == MassKind::consistent ? 5e-4 : 1e-2;
+          for (int k = 0; k < 30; ++k) run.step(dt);
           for_each_point(model, [&](const auto& body, std::size_t p) {
-            ASSERT_LT((body.points.displacement[p] - 0.3 * v).norm(), exact) << static_cast<int>(kind);
-            ASSERT_LT((body.points.velocity[p] - v).norm(), 10 * exact);
-            ASSERT_LT(stress_of(body, p).norm(), 1e5 * exact);
+            ASSERT_LT((body.points.displacement[p] - 30 * dt * v).norm(), 1e-10) << static_cast<int>(kind);
+            ASSERT_LT((body.points.velocity[p] - v).norm(), 1e-9);
+            ASSERT_LT(stress_of(body, p).norm(), 1e-5);
           });
         }
 }
 
+/// Change of momentum and angular momentum, relative, of a block that spins, flies and deforms.
 template <int dim>
-void momenta_of_a_spinning_block(bool gimp, StressUpdate scheme) {
+Vec<2> momenta_lost(bool gimp, MassKind kind, StressUpdate scheme, double dt, double end) {
   auto o = block_in_space<dim>(soft, gimp);
-  const Mass mass = apply(MassKind::ghost, o);
+  const Mass mass = apply(kind, o);
   o.bodies[0].velocity.assign(dim, 0.3);
-  // A spin with some shear, so that the block deforms as well.
   o.bodies[0].velocity_gradient.assign(dim, std::vector<double>(dim, 0.0));
   o.bodies[0].velocity_gradient[0][1] = -4.0, o.bodies[0].velocity_gradient[1][0] = 5.0;
   if (dim == 3) o.bodies[0].velocity_gradient[2][0] = 1.0;
   Model<dim> model(o);
-  Explicit<dim> run(model, explicit_steps(5e-3, mass, scheme));
+  Explicit<dim> run(model, explicit_steps(dt, mass, scheme));
   const Vec<dim> p = momentum(model);
   const Mat<dim> l = angular_momentum(model);
-  const int steps = dim == 2 ? 80 : 20;
-  for (int k = 0; k < steps; ++k) run.step(5e-3);
-  EXPECT_LT((momentum(model) - p).norm(), 1e-10 * p.norm());
-  EXPECT_LT((angular_momentum(model) - l).norm(), 1e-9 * l.norm()) << dim << "D, gimp " << gimp;
-  EXPECT_GT(stress_error(model, [](const auto&, std::size_t) { return Sym<dim>(Sym<dim>::Zero()); }), 100.0);
+  while (model.time < end - 0.5 * dt) run.step(dt);
+  EXPECT_GT(stress_error(model, [](const auto&, std::size_t) { return Sym<dim>(Sym<dim>::Zero()); }), 10.0);
+  return {(momentum(model) - p).norm() / p.norm(), (angular_momentum(model) - l).norm() / l.norm()};
 }
 
-TEST(FreeFlight, GhostMassAndFlipKeepBothMomenta) {
+TEST(FreeFlight, ConsistentMassAndFlipKeepBothMomenta) {
+  // FLIP with the symmetric M moves points with the M-projection of their velocities: both momenta stay.
+  for (const StressUpdate scheme : {StressUpdate::usf, StressUpdate::usl}) {
+    const Vec<2> lost = momenta_lost<2>(false, MassKind::consistent, scheme, 1e-3, 0.02);
+    EXPECT_LT(lost[0], 1e-11);
+    EXPECT_LT(lost[1], 1e-11);
+  }
+  EXPECT_LT(momenta_lost<3>(false, MassKind::consistent, StressUpdate::usl, 1e-3, 0.01).maxCoeff(), 1e-11);
+}
+
+TEST(FreeFlight, GhostMassKeepsTheMomentumAndAngularMomentumToFirstOrder) {
+  // The points' own acceleration knows nothing of M_G, which leaves dt^2 w x M_G a a step.
   for (const bool gimp : {false, true}) {
-    for (const StressUpdate scheme : {StressUpdate::usf, StressUpdate::usl}) momenta_of_a_spinning_block<2>(gimp, scheme);
-    momenta_of_a_spinning_block<3>(gimp, StressUpdate::usl);
+    const Vec<2> coarse = momenta_lost<2>(gimp, MassKind::ghost, StressUpdate::usl, 4e-3, 0.4);
+    const Vec<2> fine = momenta_lost<2>(gimp, MassKind::ghost, StressUpdate::usl, 1e-3, 0.4);
+    EXPECT_LT(coarse[0], 1e-11);
+    EXPECT_LT(fine[0], 1e-11);
+    EXPECT_LT(coarse[1], 2e-4);
+    EXPECT_LT(fine[1], 0.4 * coarse[1]);
+    EXPECT_LT(momenta_lost<3>(gimp, MassKind::ghost, StressUpdate::usl, 5e-3, 0.1)[0], 1e-11);
   }
 }
 
@@ -89,7 +106,9 @@ TEST(FreeFlight, AStressedSpinIsCarriedRound) {
   const double dt = 1e-3;
   Explicit<2> run(model, explicit_steps(dt, mass));
   std::vector<Vec<2>> start(static_cast<std::size_t>(model.bodies[0].points.size()));
-  for_each_point(model, [&](const auto& b, std::size_t p) { start[static_cast<std::size_t>(b.points.id[p])] = b.points.position[p]; });
+  for_each_point(model, [&](const auto& b, std::size_t p) {
+    start[static_cast<std::size_t>(b.points.id[p])] = b.points.position[p];
+  });
   for (int k = 0; k < 1000; ++k) run.step(dt);
   // Euler-Cromer's turn per step is exact to second order; centrifugal strain is rho omega^2 r^2 / E = 1e-2.
   for_each_point(model, [&](const auto& b, std::size_t p) {
@@ -99,7 +118,7 @@ TEST(FreeFlight, AStressedSpinIsCarriedRound) {
 }
 
 TEST(FreeFlight, FreeFallGainsTheWorkOfGravity) {
-  for (const MassKind kind : all_masses) {
+  for (const MassKind kind : {MassKind::lumped, MassKind::ghost}) {
     auto o = block_in_space<2>(soft, true);
     const Mass mass = apply(kind, o);
     add_gravity(o, {0.0, -10.0});

@@ -16,6 +16,41 @@ from program import expect, expect_success, same_files, wisp, write_case
 KILLS = 4
 
 
+def descendants(pid):
+    """Processes that a process started, and those that they started: ranks are in groups of their own."""
+    children = {}
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", encoding="utf-8") as stream:
+                parent = int(stream.read().rsplit(")", 1)[1].split()[1])
+        except OSError:
+            continue
+        children.setdefault(parent, []).append(int(name))
+    found = [pid]
+    for one in found:
+        found += children.get(one, [])
+    return found
+
+
+def is_alive(pid):
+    try:
+        with open(f"/proc/{pid}/stat", encoding="utf-8") as stream:
+            return stream.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def kill_all(pid):
+    pids = descendants(pid)
+    for one in pids:
+        try:
+            os.kill(one, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    while any(is_alive(one) for one in pids):
+        time.sleep(0.01)
+
+
 def kill_at(command, seconds):
     """Starts the program and kills it, with all its ranks, after a while; tells whether it was still running."""
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
@@ -24,7 +59,7 @@ def kill_at(command, seconds):
         _, errors = process.communicate(timeout=seconds)
         return False, process.returncode, errors
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
+        kill_all(process.pid)
         process.communicate()
         return True, process.returncode, ""
 
@@ -45,7 +80,7 @@ def main(program, ranks):
         command = [program, "run", case, "--out", killed, *many]
         count = 0
         for _ in range(KILLS):
-            was_running, status, errors = kill_at(command, moments.uniform(0.2, 0.6) * duration)
+            was_running, status, errors = kill_at(command, moments.uniform(0.15, 0.4) * duration)
             count += was_running
             expect(was_running or status == 0, f"status {status}: {errors}")
             if os.path.exists(os.path.join(killed, "checkpoint.txt")):

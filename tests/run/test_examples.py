@@ -1,0 +1,64 @@
+"""Runs an example and checks its results: states, history, a picture; the column also against the exact motion.
+
+usage: test_examples.py WISP CASE.toml
+"""
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+from program import expect, expect_success, wisp
+from wisp.results import Results
+
+
+def exact_sinking(height, length=50.0, modulus=10e3, density=80.0, gravity=10.0):
+    """Displacement of a point of an elastic column under its weight. Hencky's law with nu = 0: the section at Y carries
+    the weight above it, -E ln(s) / s = density gravity (length - Y), with the stretch s found by bisection."""
+    places = np.linspace(0.0, height, 2001)
+    load = density * gravity * (length - places) / modulus
+    low, high = np.full_like(load, 1e-3), np.ones_like(load)
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        too_short = -np.log(middle) / middle > load
+        low, high = np.where(too_short, middle, low), np.where(too_short, high, middle)
+    stretch = 0.5 * (low + high)
+    return np.trapz(stretch - 1.0, places)
+
+
+def check_column(results):
+    history = results.history
+    height = history["top position y [m]"][0]
+    exact = exact_sinking(height)
+    found = history["top displacement y [m]"][-1]
+    expect(abs(found - exact) < 0.01 * abs(exact), f"the top sinks by {found} m, exactly by {exact} m")
+    weight = 80.0 * 10.0 * 50.0 * 6.25
+    expect(abs(history["reaction base y [N/m]"][-1] - weight) < 1e-5 * weight, "the base carries the weight")
+    stress = results.points()["stress"][:, 1]
+    start = results.points(0)["positions"][:, 1]
+    wanted = -80.0 * 10.0 * (50.0 - start)
+    order = np.argsort(results.points()["id"])
+    expect(np.array_equal(results.points(0)["id"], np.sort(results.points()["id"])), "points keep their ids")
+    error = np.mean(np.abs(stress[order] - wanted[np.argsort(results.points(0)["id"])])) / (80.0 * 10.0 * 50.0)
+    expect(error < 0.05, f"stress differs by {error:.3f} of the greatest")
+
+
+def main(program, case):
+    name = os.path.basename(os.path.dirname(case))
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, "results")
+        expect_success(wisp(program, "check", case))
+        expect_success(wisp(program, "run", case, "--out", out))
+        results = Results(out)
+        expect(len(results.times) >= 5, f"{len(results.times)} states")
+        for values in results.history.values():
+            expect(np.all(np.isfinite(values)), "the history holds numbers")
+        expect(all(np.all(np.isfinite(values)) for values in results.points().values()), "so do the points")
+        expect_success(wisp(program, "picture", out))
+        expect(os.path.getsize(os.path.join(out, "picture.png")) > 1000, "a picture")
+        if name == "01-compressed-column":
+            check_column(results)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
