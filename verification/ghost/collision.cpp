@@ -37,10 +37,11 @@ ModelOptions collision_options(const CollisionCase& collision) {
 
 }  // namespace
 
-double CollisionRun::mean_error() const {
+double CollisionRun::mean_error(bool of_grid) const {
   if (!failure.empty()) return std::numeric_limits<double>::infinity();
+  const std::vector<double>& moving = of_grid ? grid_kinetic : kinetic;
   double sum = 0.0;
-  for (std::size_t i = 0; i < time.size(); ++i) sum += std::abs(kinetic[i] + strain[i] - initial);
+  for (std::size_t i = 0; i < time.size(); ++i) sum += std::abs(moving[i] + strain[i] - initial);
   return sum / (static_cast<double>(time.size()) * initial);
 }
 
@@ -57,9 +58,11 @@ CollisionRun run_collision(const CollisionCase& collision,
     for (int i = 0; i < collision.steps; ++i) {
       EnergyRecord record;
       const double now = model.time;
+      double kinetic = 0.0;
+      for (const auto& body : model.bodies) kinetic += energy(body).kinetic;
       analysis.step(collision_duration / collision.steps, &record);
       run.time.push_back(now);
-      run.kinetic.push_back(record.kinetic), run.strain.push_back(record.strain);
+      run.kinetic.push_back(kinetic), run.grid_kinetic.push_back(record.kinetic), run.strain.push_back(record.strain);
       run.dissipation.push_back(record.dissipation);
       if (watch) watch(model);
     }

@@ -139,6 +139,7 @@ std::vector<VerificationRow> table_3(Runs& runs, bool full) {
   std::map<CollisionCase, double> errors;
   for (const auto& c : table_3_cases(full)) {
     const double error = runs.of(c).mean_error();
+    if (!runs.of(c).failure.empty()) fmt::print("{}: {}\n", name(c), runs.of(c).failure);
     errors[c] = error;
     VerificationRow row{
         name(c), "mean energy error, 1e-3",
@@ -146,6 +147,7 @@ std::vector<VerificationRow> table_3(Runs& runs, bool full) {
         1e3 * error};
     row.tolerance = 0.25;  // a target, not gated: it depends on the outline
     rows.push_back(row);
+    rows.push_back({name(c), "the same of the nodal velocities, 1e-3", std::nullopt, 1e3 * runs.of(c).mean_error(true)});
   }
   add_trends(errors, rows);
   return rows;
