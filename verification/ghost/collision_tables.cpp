@@ -147,7 +147,8 @@ std::vector<VerificationRow> table_3(Runs& runs, bool full) {
         1e3 * error};
     row.tolerance = 0.25;  // a target, not gated: it depends on the outline
     rows.push_back(row);
-    rows.push_back({name(c), "the same of the nodal velocities, 1e-3", std::nullopt, 1e3 * runs.of(c).mean_error(true)});
+    rows.push_back(
+        {name(c), "the same of the nodal velocities, 1e-3", std::nullopt, 1e3 * runs.of(c).mean_error(true)});
   }
   add_trends(errors, rows);
   return rows;
