@@ -182,7 +182,9 @@ EnergyRecord Run<dim>::energies_of_points() const {
     record.kinetic += e.kinetic, record.strain += e.strain, record.dissipation += e.dissipation;
   }
   const Vec<3> sum = Session::sum(Vec<3>(record.kinetic, record.strain, record.dissipation));
-  return {sum[0], sum[1], sum[2], model_.external_work};
+  record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2];
+  record.external_work = model_.external_work;
+  return record;
 }
 
 template <int dim>
