@@ -60,8 +60,8 @@ CollisionRun run_collision(const CollisionCase& collision,
       const double now = model.time;
       analysis.step(collision_duration / collision.steps, &record);
       run.time.push_back(now);
-      run.kinetic.push_back(record.kinetic), run.grid_kinetic.push_back(record.grid_kinetic),
-          run.strain.push_back(record.strain);
+      run.kinetic.push_back(record.kinetic), run.grid_kinetic.push_back(record.grid_kinetic);
+      run.strain.push_back(record.strain);
       run.dissipation.push_back(record.dissipation);
       if (watch) watch(model);
     }

@@ -14,10 +14,10 @@ import numpy as np
 
 WIDTH = 0.4  # m, also the height
 AREA = 0.10736  # m^2
-EYE = dict(x=0.080, y=0.250, rx=0.033, ry=0.052)  # half-distance from the middle, height, half-axes in m
+EYE = dict(x=0.080, y=0.250, rx=0.033, ry=0.055)  # half-distance from the middle, height, half-axes in m
 MOUTH = dict(y=0.160, rx=0.036, ry=0.046)
-LOBES = 3  # of the hem
-CORNER = 0.15  # m, radius of the lower corners, on which the hem lies
+LOBES = 5  # of the hem
+CORNER = 0.07  # m, radius of the lower corners, on which the hem lies
 
 
 def ellipse(cx, cy, rx, ry, n):
@@ -33,7 +33,7 @@ def body(depth):
     inwards = CORNER - np.minimum(np.minimum(x, WIDTH - x), CORNER)
     corner = CORNER - np.sqrt(CORNER**2 - inwards**2)
     hem = np.column_stack([x, corner + 0.5 * depth * (1.0 + np.cos(2.0 * np.pi * LOBES * x / WIDTH))])
-    hem[64, 1] = 0.0  # cos(3 pi) is -1 only to rounding
+    hem[64, 1] = 0.0  # cos(5 pi) is -1 only to rounding
     t = np.linspace(0.0, np.pi, 97)
     head = np.column_stack([0.5 * WIDTH * (1.0 + np.cos(t)), 0.5 * WIDTH * (1.0 + np.sin(t))])
     head[48] = 0.5 * WIDTH, WIDTH
