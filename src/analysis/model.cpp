@@ -119,6 +119,9 @@ void Model<dim>::settle() {
       reorder(bodies[b], space->window().n_cells());
   }
   if (space->domains()) choose_width();
+  if (tractions.empty()) return;
+  const ActiveCells active = active_cells(*space, bodies);
+  for (auto& traction : tractions) traction.settle(*space, active);
 }
 
 template <int dim>

@@ -91,7 +91,7 @@ Traction<dim>::Traction(const TractionOptions& options, const std::vector<Body<d
                         const Space<dim>& space)
     : options_(options) {
   const auto& label = options.label;
-  body_index(bodies, options.body, "traction '" + label + "'");
+  body_ = body_index(bodies, options.body, "traction '" + label + "'");
   if (options.traction.empty() == !options.pressure)
     input_error("traction '{}': give either traction or pressure", label);
   if (!options.traction.empty()) traction_ = as_vector<dim>(options.traction, "traction", label, "traction");
@@ -121,6 +121,37 @@ Traction<dim>::Traction(const TractionOptions& options, const std::vector<Body<d
     position_.push_back(x);
   });
   deformation_gradient_.assign(position_.size(), Mat<dim>::Identity());
+  host_ = position_;
+}
+
+template <int dim>
+void Traction<dim>::settle(const Space<dim>& space, const ActiveCells& active) {
+  const auto& window = space.window();
+  const auto& grid = space.grid();
+  host_ = position_;
+  for (std::size_t s = 0; s < position_.size(); ++s) {
+    if (!mine(space, position_[s])) continue;
+    const Vec<dim>& x = position_[s];
+    MultiIndex<dim> cell;
+    for (int d = 0; d < dim; ++d) cell[d] = grid.locate_inside(d, x[d]);
+    double nearest = std::numeric_limits<double>::max();
+    for_each_in(IndexBox<dim>{cell - MultiIndex<dim>::Ones(), cell + MultiIndex<dim>::Constant(2)},
+                [&](const MultiIndex<dim>& c) {
+                  if (!window.cell_in_grid(c) ||
+                      !(active.bits[static_cast<std::size_t>(window.cell_index(c))] & (1 << body_)))
+                    return;
+                  Vec<dim> inside = x;
+                  for (int d = 0; d < dim; ++d) {
+                    // Not on the line itself, which may belong to the cell beyond.
+                    const double margin = 1e-9 * grid.spacing(d, c[d]);
+                    inside[d] =
+                        std::clamp(x[d], grid.line(d, c[d]) + margin, grid.line(d, c[d] + 1) - margin);
+                  }
+                  const double distance = (inside - x).squaredNorm();
+                  if (c == cell || distance < nearest)
+                    nearest = c == cell ? -1.0 : distance, host_[s] = c == cell ? x : inside;
+                });
+  }
 }
 
 template <int dim>
@@ -141,7 +172,7 @@ void Traction<dim>::add_force(const Space<dim>& space, double t, std::span<doubl
     } else {
       f = options_.factor(t) * area_.norm() * traction_;
     }
-    for_each_function<dim>(space, position_[s], Vec<dim>::Zero(), [&](int i, double phi, const Vec<dim>&) {
+    for_each_function<dim>(space, host_[s], Vec<dim>::Zero(), [&](int i, double phi, const Vec<dim>&) {
       for (int d = 0; d < dim; ++d) force[static_cast<std::size_t>(i * dim + d)] += phi * f[d];
     });
   }
@@ -153,13 +184,15 @@ void Traction<dim>::move(const Space<dim>& space, std::span<const double> field,
     Vec<dim> u = Vec<dim>::Zero();
     Mat<dim> gradient = Mat<dim>::Zero();
     if (mine(space, position_[s]))
-      for_each_function<dim>(space, position_[s], Vec<dim>::Zero(),
-                             [&](int i, double phi, const Vec<dim>& dphi) {
-                               const Vec<dim> v = Eigen::Map<const Vec<dim>>(field.data() + i * stride);
-                               u += phi * v, gradient += v * dphi.transpose();
-                             });
+      for_each_function<dim>(space, host_[s], Vec<dim>::Zero(), [&](int i, double phi, const Vec<dim>& dphi) {
+        const Vec<dim> v = Eigen::Map<const Vec<dim>>(field.data() + i * stride);
+        u += phi * v, gradient += v * dphi.transpose();
+      });
+    // Only the rank that evaluates knows the host.
+    u += gradient * (position_[s] - host_[s]);
     u = Session::sum(u), gradient = Session::sum(gradient);
     position_[s] += factor * u;
+    host_[s] = position_[s];
     for (int d = 0; d < dim; ++d)
       if (const int c = space.grid().locate_inside(d, position_[s][d]); c < 0 || c >= space.grid().cells(d))
         run_error("traction '{}': a surface point left the grid at {} = {}; use a larger grid", name(),

@@ -6,6 +6,7 @@
 #include "basis/space.h"
 #include "boundary/options.h"
 #include "particle/body.h"
+#include "transfer/active.h"
 
 namespace wisp {
 
@@ -41,6 +42,10 @@ class Traction {
 
   const std::string& name() const { return options_.label; }
   int size() const { return static_cast<int>(position_.size()); }
+  /// Before a step: surface points beyond the body's active cells, or on the line where these end, act
+  /// through the nearest one (its polynomial, continued), or part of the load would go to functions without
+  /// mass.
+  void settle(const Space<dim>& space, const ActiveCells& active);
   void add_force(const Space<dim>& space, double t, std::span<double> force) const;
   /// Moves the surface points with a field of displacements (n_functions x dim, times `factor`),
   /// start-of-step functions.
@@ -53,8 +58,10 @@ class Traction {
   bool mine(const Space<dim>& space, const Vec<dim>& x) const;
 
   TractionOptions options_;
+  std::size_t body_ = 0;
   Vec<dim> traction_ = Vec<dim>::Zero();
   std::vector<Vec<dim>> position_;
+  std::vector<Vec<dim>> host_;  // where the functions of each surface point are evaluated, see `settle`
   std::vector<Mat<dim>> deformation_gradient_;
   Vec<dim> area_ = Vec<dim>::Zero();  // initial area times outward normal of one surface point
 };

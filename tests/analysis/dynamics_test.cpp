@@ -17,11 +17,15 @@ ModelOptions bar(int n, bool gimp, const AnyLaw& law) {
   hold(o, "x", 0.0, "x"), hold(o, "y", 0.0, "y"), hold(o, "y", h, "y");
   return o;
 }
-void start(Model<2>& model) {
+void start(Model<2>& model, double size = amplitude) {
   for (auto& body : model.bodies)
     for (std::size_t p = 0; p < body.points.position.size(); ++p)
+<<<<<<< HEAD
       body.points.velocity[p] =
           Vec<2>(amplitude * omega * std::sin(0.5 * M_PI * body.points.position[p][0]), 0.0);
+=======
+      body.points.velocity[p] = Vec<2>(size * omega * std::sin(0.5 * M_PI * body.points.position[p][0]), 0.0);
+>>>>>>> tests
 }
 
 struct Vibration {
@@ -104,7 +108,7 @@ Vibration run_newmark(double damping, int steps_per_period, double periods, bool
   auto o = bar(16, gimp, LinearElastic{rho, E, 0.0});
   if (ghost) o.stabilisation = GhostOptions{};
   Model<2> model(o);
-  start(model);
+  start(model, 1e-2 * amplitude);  // points move in their cells, which changes the energy by a part of this
   ImplicitDynamicOptions options;
   options.numerical_damping = damping, options.tolerance = 1e-10;
   Implicit<2> run(model, options);
@@ -226,7 +230,12 @@ TEST(Tractions, GiveTheirImpulse) {
     Model<2> model(o);
     Explicit<2> run(model, explicit_steps(1e-3, mass));
     for (int k = 0; k < 50; ++k) run.step(1e-3);
-    EXPECT_LT((momentum(model) - 0.05 * Vec<2>(300.0, 70.0)).norm(), 1e-8);
+    EXPECT_LT((momentum(model) - 0.05 * Vec<2>(300.0, 70.0)).norm(), 1e-8) << static_cast<int>(kind);
+    // The surface has stayed at the end of the block, half a point's size from its last points.
+    const auto& points = model.bodies[0].points;
+    double last = 0.0;
+    for (std::size_t p = 0; p < points.position.size(); ++p) last = std::max(last, points.displacement[p][0]);
+    for (const auto& x : model.tractions[0].positions()) EXPECT_NEAR(x[0] - 1.0, last, 0.3 * last);
   }
 }
 
