@@ -95,7 +95,8 @@ void Explicit<dim>::assemble_mass() {
       model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>());
 }
 
-/// Velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition holds, as at time t.
+/// Velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition holds, as at time
+/// t.
 template <int dim>
 void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
@@ -217,12 +218,12 @@ template <int dim>
 void Explicit<dim>::record_energy(EnergyRecord& record) const {
   record = {};
   for (const auto& body : model_.bodies) {
-    record.kinetic += grid_kinetic_energy<dim>(*model_.space, body, velocity_, dim);
+    record.grid_kinetic += grid_kinetic_energy<dim>(*model_.space, body, velocity_, dim);
     const BodyEnergy e = energy(body);
-    record.strain += e.strain, record.dissipation += e.dissipation;
+    record.kinetic += e.kinetic, record.strain += e.strain, record.dissipation += e.dissipation;
   }
-  Vec<3> sum = Session::sum(Vec<3>(record.kinetic, record.strain, record.dissipation));
-  record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2];
+  Vec<4> sum = Session::sum(Vec<4>(record.kinetic, record.strain, record.dissipation, record.grid_kinetic));
+  record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2], record.grid_kinetic = sum[3];
   record.external_work = model_.external_work;
 }
 
@@ -324,7 +325,8 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
       gather(Gather::inertia);
       // The solve starts from the velocity just found, not from an array that a resumed run would not have.
       strain_velocity_.resize(velocity_.size());
-      for (std::size_t k = 0; k < velocity_.size(); ++k) strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
+      for (std::size_t k = 0; k < velocity_.size(); ++k)
+        strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
       solve_velocity(model_.time + dt, strain_velocity_);
     }
     update.velocity = false, update.strain_velocity = strain_velocity_;

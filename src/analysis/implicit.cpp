@@ -106,9 +106,7 @@ void Implicit<dim>::set_up(double dt) {
     if (options) add_ghost(space, facets, *options, GhostMatrix::mass, mass_);
     start_inertia(dt);
   }
-  dofs_ = DofMap(
-      space.nodes(), dim, active_,
-      model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>());
+  number_unknowns();
   prescribed_.assign(n * dim, 0.0);
   for (std::size_t k = 0; k < model_.constraints.fixed.size(); ++k)
     if (model_.constraints.fixed[k] && active_[k / dim])
@@ -116,6 +114,29 @@ void Implicit<dim>::set_up(double dt) {
           model_.time, dt);
   reaction_.assign(n * dim, 0.0);
   evaluations_ = 0;
+}
+
+/// Numbers the unknowns the way the solver wants them; multigrid also gets their coordinates, for its
+/// rigid-body modes.
+template <int dim>
+void Implicit<dim>::number_unknowns() {
+  const auto& space = *model_.space;
+  int unknowns = 0;
+  for (int f = 0; f < space.n_functions(); ++f)
+    if (active_[static_cast<std::size_t>(f)] && space.nodes().owns(f)) unknowns += dim;
+  const FixedUnknowns mode = solver_.numbering(Session::sum(unknowns));
+  dofs_ = DofMap(
+      space.nodes(), dim, active_,
+      model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>(),
+      mode);
+  MatrixTraits traits;
+  traits.dim = dim;
+  if (mode == FixedUnknowns::unit_rows)
+    for (std::size_t k = 0; k < dofs_.owned().size(); k += dim) {
+      const Vec<dim> x = space.node_position(dofs_.owned()[k] / dim);
+      traits.coordinates.insert(traits.coordinates.end(), x.data(), x.data() + dim);
+    }
+  solver_.set_traits(std::move(traits));
 }
 
 /// Body forces and loads with start-of-step functions, owners and ghosts.
@@ -171,8 +192,8 @@ void Implicit<dim>::start_inertia(double dt) {
   map(
       [](const auto& points) -> const auto& { return points.acceleration; }, acceleration_,
       [](const auto&) { return 0.0; });
-  // What the momentum at the start would take to stop in the step: forces are differences of terms of this size, so
-  // it belongs to the scale of the residual, or nothing converges when all forces pass through zero.
+  // What the momentum at the start would take to stop in the step: forces are differences of terms of this
+  // size, so it belongs to the scale of the residual, or nothing converges when all forces pass through zero.
   std::vector<double> inertia(n * dim);
   const std::vector<double> none(n * dim, 0.0);
   mass_.multiply_columns(acceleration(none, dt), inertia, dim);

@@ -45,6 +45,7 @@ class Implicit {
 
   NewtonReport attempt(double dt);
   void set_up(double dt);
+  void number_unknowns();
   void external_force(double t, std::vector<double>& force) const;
   void start_inertia(double dt);
   double residual(std::span<const double> u, double dt);

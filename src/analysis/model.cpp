@@ -83,7 +83,8 @@ void Model<dim>::add_loads(double t, std::span<double> force) const {
         for (const auto& body : bodies) {
           const Particles<dim>& points = body.points;
           for (std::size_t p = 0; p < points.position.size(); ++p) {
-            const Vec<dim> f = points.mass[p] * body_acceleration(points.position[p] - points.displacement[p], t);
+            const Vec<dim> f =
+                points.mass[p] * body_acceleration(points.position[p] - points.displacement[p], t);
             const Vec<dim> l = points.half_length.empty() ? Vec<dim>::Zero() : points.half_length[p];
             basis.tabulate(points.position[p], l).for_each([&](int, int i, double phi, const Vec<dim>&) {
               for (int d = 0; d < dim; ++d) force[static_cast<std::size_t>(i * dim + d)] += phi * f[d];

@@ -59,7 +59,8 @@ struct Model {
 
   Vec<dim> gravity(double t) const;
   bool has_loads() const { return !loads.empty() || !tractions.empty() || body_acceleration; }
-  /// Adds point loads, tractions and body_acceleration at time t to `force` (n_functions x dim), this rank's share.
+  /// Adds point loads, tractions and body_acceleration at time t to `force` (n_functions x dim), this rank's
+  /// share.
   void add_loads(double t, std::span<double> force) const;
   std::int64_t n_points() const;  ///< all ranks
 

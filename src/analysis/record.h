@@ -13,11 +13,14 @@ class StepRefused : public RunError {
   using RunError::RunError;
 };
 
-/// Energies of all ranks at one time level: that of the forces of the step (explicit: kinetic energy v^T M v
-/// / 2 of the start-of-step grid velocity with the consistent mass, without Ghost; strain energy of the
-/// stress used for the forces).
+/// Energies of all ranks. In explicit steps at the time level of the forces: kinetic energy of the points'
+/// velocities at the start of the step, strain energy and dissipation of the stress used for the forces. The
+/// grid sees less kinetic energy than the points carry (v^T M v / 2 of the start-of-step nodal velocity with
+/// the consistent mass, without Ghost), because mapping smooths; only the points' closes the balance as the
+/// time step goes to zero.
 struct EnergyRecord {
-  double kinetic = 0.0;        ///< J
+  double kinetic = 0.0;        ///< J, of the points
+  double grid_kinetic = 0.0;   ///< J, of the nodal velocity; zero in implicit analyses
   double strain = 0.0;         ///< J
   double dissipation = 0.0;    ///< J, plastic
   double external_work = 0.0;  ///< J, done on the bodies since the start

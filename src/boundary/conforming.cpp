@@ -80,8 +80,7 @@ Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& 
     bool whole = held.upper[d] - held.lower[d] == 1;
     for (int e = 0; e < dim; ++e)
       whole &= e == d || (held.lower[e] == all.lower[e] && held.upper[e] == all.upper[e]);
-    if (whole)
-      edge_[k] = held.lower[d] == 0, edge_[k + 1] = held.lower[d] == grid.cells(d);
+    if (whole) edge_[k] = held.lower[d] == 0, edge_[k + 1] = held.lower[d] == grid.cells(d);
   }
   for_each_in(held, [&](const MultiIndex<dim>& i) {
     if (space.window().contains_node(i)) functions_.push_back(space.window().node_index(i));

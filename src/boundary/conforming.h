@@ -52,13 +52,15 @@ struct Constraints {
   Constraints(const std::vector<Conforming<dim>>& conditions, int n_functions);
 };
 
-/// Which edges of the grid the conditions hold: entry 2 d + side, side 0 the lower and 1 the upper edge of direction d.
+/// Which edges of the grid the conditions hold: entry 2 d + side, side 0 the lower and 1 the upper edge of
+/// direction d.
 template <int dim>
 std::array<bool, 2 * dim> held_edges(const std::vector<Conforming<dim>>& conditions) {
   std::array<bool, 2 * dim> held{};
   for (const auto& condition : conditions)
     for (int d = 0; d < dim; ++d)
-      for (int side = 0; side < 2; ++side) held[static_cast<std::size_t>(2 * d + side)] |= condition.on_edge(d, side);
+      for (int side = 0; side < 2; ++side)
+        held[static_cast<std::size_t>(2 * d + side)] |= condition.on_edge(d, side);
   return held;
 }
 

@@ -144,7 +144,8 @@ void Traction<dim>::settle(const Space<dim>& space, const ActiveCells& active) {
                   for (int d = 0; d < dim; ++d) {
                     // Not on the line itself, which may belong to the cell beyond.
                     const double margin = 1e-9 * grid.spacing(d, c[d]);
-                    inside[d] = std::clamp(x[d], grid.line(d, c[d]) + margin, grid.line(d, c[d] + 1) - margin);
+                    inside[d] =
+                        std::clamp(x[d], grid.line(d, c[d]) + margin, grid.line(d, c[d] + 1) - margin);
                   }
                   const double distance = (inside - x).squaredNorm();
                   if (c == cell || distance < nearest)
@@ -183,11 +184,10 @@ void Traction<dim>::move(const Space<dim>& space, std::span<const double> field,
     Vec<dim> u = Vec<dim>::Zero();
     Mat<dim> gradient = Mat<dim>::Zero();
     if (mine(space, position_[s]))
-      for_each_function<dim>(space, host_[s], Vec<dim>::Zero(),
-                             [&](int i, double phi, const Vec<dim>& dphi) {
-                               const Vec<dim> v = Eigen::Map<const Vec<dim>>(field.data() + i * stride);
-                               u += phi * v, gradient += v * dphi.transpose();
-                             });
+      for_each_function<dim>(space, host_[s], Vec<dim>::Zero(), [&](int i, double phi, const Vec<dim>& dphi) {
+        const Vec<dim> v = Eigen::Map<const Vec<dim>>(field.data() + i * stride);
+        u += phi * v, gradient += v * dphi.transpose();
+      });
     // Only the rank that evaluates knows the host.
     u += gradient * (position_[s] - host_[s]);
     u = Session::sum(u), gradient = Session::sum(gradient);
@@ -195,7 +195,8 @@ void Traction<dim>::move(const Space<dim>& space, std::span<const double> field,
     host_[s] = position_[s];
     for (int d = 0; d < dim; ++d)
       if (const int c = space.grid().locate_inside(d, position_[s][d]); c < 0 || c >= space.grid().cells(d))
-        run_error("traction '{}': a surface point left the grid at {} = {}; use a larger grid", name(), "xyz"[d], position_[s][d]);
+        run_error("traction '{}': a surface point left the grid at {} = {}; use a larger grid", name(),
+                  "xyz"[d], position_[s][d]);
     deformation_gradient_[s] = (Mat<dim>::Identity() + factor * gradient) * deformation_gradient_[s];
   }
 }

@@ -42,8 +42,9 @@ class Traction {
 
   const std::string& name() const { return options_.label; }
   int size() const { return static_cast<int>(position_.size()); }
-  /// Before a step: surface points beyond the body's active cells, or on the line where these end, act through the
-  /// nearest one (its polynomial, continued), or part of the load would go to functions without mass.
+  /// Before a step: surface points beyond the body's active cells, or on the line where these end, act
+  /// through the nearest one (its polynomial, continued), or part of the load would go to functions without
+  /// mass.
   void settle(const Space<dim>& space, const ActiveCells& active);
   void add_force(const Space<dim>& space, double t, std::span<double> force) const;
   /// Moves the surface points with a field of displacements (n_functions x dim, times `factor`),

@@ -6,8 +6,9 @@
 
 namespace wisp {
 
-/// Piecewise linear function of time: constant before the first and after the last point. In a case file it is a number
-/// (constant) or a list of [time, value] pairs. Times in s, values in the unit of the key that holds it.
+/// Piecewise linear function of time: constant before the first and after the last point. In a case file it
+/// is a number (constant) or a list of [time, value] pairs. Times in s, values in the unit of the key that
+/// holds it.
 struct Curve {
   std::vector<double> times{0.0};
   std::vector<double> values{0.0};

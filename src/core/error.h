@@ -7,14 +7,15 @@
 
 namespace wisp {
 
-/// Bad input: what the user gave cannot be used. The program prints `what()` on one line and ends with exit status 2.
+/// Bad input: what the user gave cannot be used. The program prints `what()` on one line and ends with exit
+/// status 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A run that cannot go on (divergence, NaN, lost points): step, cause and what to try. Exit status 1; the last good
-/// state stays on disk.
+/// A run that cannot go on (divergence, NaN, lost points): step, cause and what to try. Exit status 1; the
+/// last good state stays on disk.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -28,8 +28,12 @@ Case read_case(const CaseSource& source) {
 
 std::filesystem::path default_output_folder(const Case& c) {
   if (!c.output.folder.empty()) return c.output.folder;
-  const auto stem = std::filesystem::path(c.file.name).stem();
-  return std::filesystem::path("results") / (stem.empty() ? std::filesystem::path("case") : stem);
+  std::filesystem::path name = std::filesystem::path(c.file.name).stem();
+  if ((name.empty() || name == "case") && !c.file.folder.empty()) {  // named after nothing but its kind
+    const auto folder = std::filesystem::absolute(c.file.folder).lexically_normal();
+    name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+  }
+  return std::filesystem::path("results") / (name.empty() ? std::filesystem::path("case") : name);
 }
 
 const TypeText& case_description() {

@@ -74,7 +74,8 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
 /// The same from what a checkpoint kept, or from any text.
 Case read_case(const CaseSource& source);
 
-/// "results/<name of the case file>" unless the case names a folder.
+/// "results/<name of the case file>" unless the case names a folder; of a file case.toml the name of its
+/// folder.
 std::filesystem::path default_output_folder(const Case& c);
 
 /// The names and types of everything that a case can hold.

@@ -150,9 +150,9 @@ std::string describe_markdown(const TypeText& root);
 /// A value for a required key without default, by its path ("grid.lower"); empty if unknown.
 using Sample = std::string (*)(const std::string& path);
 
-/// A commented case: every key with its unit, range and meaning. Required keys and those with a sample are set, all others
-/// are commented out and show their default. Of variants the alternative whose name is in `chosen`, else the first;
-/// optional tables are commented out unless their key or type is in `chosen`.
+/// A commented case: every key with its unit, range and meaning. Required keys and those with a sample are
+/// set, all others are commented out and show their default. Of variants the alternative whose name is in
+/// `chosen`, else the first; optional tables are commented out unless their key or type is in `chosen`.
 std::string template_text(const TypeText& root, const std::vector<std::string>& chosen, Sample sample);
 
 }  // namespace wisp

@@ -127,7 +127,9 @@ class Run {
   /// Before every step.
   bool rebalance() {
     point_steps_ += static_cast<double>(local_points());
-    return Session::size() > 1 && model_.step % rebalance_every == 0 && model_.rebalance();
+    if (Session::size() == 1 || model_.step % rebalance_every != 0) return false;
+    model_.settle();  // points that left the grid have no cell to count
+    return model_.rebalance();
   }
   int local_points() const {
     int n = 0;
@@ -180,7 +182,9 @@ EnergyRecord Run<dim>::energies_of_points() const {
     record.kinetic += e.kinetic, record.strain += e.strain, record.dissipation += e.dissipation;
   }
   const Vec<3> sum = Session::sum(Vec<3>(record.kinetic, record.strain, record.dissipation));
-  return {sum[0], sum[1], sum[2], model_.external_work};
+  record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2];
+  record.external_work = model_.external_work;
+  return record;
 }
 
 template <int dim>

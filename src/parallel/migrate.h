@@ -42,7 +42,8 @@ class Migration {
     return in;
   }
 
-  /// Moves one field of the items in place, byte by byte (small tensors of Eigen count as plain bytes here): what stays closes ranks in its order, what arrives follows.
+  /// Moves one field of the items in place, byte by byte (small tensors of Eigen count as plain bytes here):
+  /// what stays closes ranks in its order, what arrives follows.
   /// @param field      n items * components values
   /// @param components values per item
   template <class T>
@@ -52,7 +53,8 @@ class Migration {
     const auto width = static_cast<std::size_t>(components);
     const std::vector<std::byte> arrived =
         exchange_records(sizeof(T) * width, [&](int item, std::byte* record) {
-          std::memcpy(record, static_cast<const void*>(field.data() + static_cast<std::size_t>(item) * width), sizeof(T) * width);
+          std::memcpy(record, static_cast<const void*>(field.data() + static_cast<std::size_t>(item) * width),
+                      sizeof(T) * width);
         });
     std::size_t place = 0;
     for (const int item : staying_) {
@@ -60,7 +62,8 @@ class Migration {
       for (std::size_t c = 0; c < width; ++c) field[place++] = field[from + c];
     }
     field.resize(static_cast<std::size_t>(n_after()) * width);
-    if (!arrived.empty()) std::memcpy(static_cast<void*>(field.data() + place), arrived.data(), arrived.size());
+    if (!arrived.empty())
+      std::memcpy(static_cast<void*>(field.data() + place), arrived.data(), arrived.size());
   }
 
  private:

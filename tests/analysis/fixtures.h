@@ -22,17 +22,20 @@ ModelOptions on_grid(const Vec<dim>& lower, const Vec<dim>& upper, const MultiIn
 
 /// Adds a box-shaped body.
 template <int dim>
-BodyOptions& add_box(ModelOptions& o, const Vec<dim>& lower, const Vec<dim>& upper, const AnyLaw& law, int points = 2) {
+BodyOptions& add_box(ModelOptions& o, const Vec<dim>& lower, const Vec<dim>& upper, const AnyLaw& law,
+                     int points = 2) {
   BodyOptions body;
   body.label = "body " + std::to_string(o.bodies.size());
-  body.shape = Box{std::vector<double>(lower.data(), lower.data() + dim), std::vector<double>(upper.data(), upper.data() + dim)};
+  body.shape = Box{std::vector<double>(lower.data(), lower.data() + dim),
+                   std::vector<double>(upper.data(), upper.data() + dim)};
   body.sampling.points_per_cell = points;
   body.material = law;
   return o.bodies.emplace_back(body);
 }
 
 /// Fixes directions ("x", "xy", ...) on the grid line or plane `normal` = at.
-inline ConformingOptions& hold(ModelOptions& o, const char* normal, double at, const std::string& directions) {
+inline ConformingOptions& hold(ModelOptions& o, const char* normal, double at,
+                               const std::string& directions) {
   ConformingOptions c;
   c.label = std::string(normal) + " = " + std::to_string(at), c.normal = normal, c.at = at;
   for (const char d : directions) c.directions.emplace_back(1, d);
@@ -68,7 +71,8 @@ void for_each_point(const Model<dim>& model, F&& f) {
 template <int dim>
 Vec<dim> momentum(const Model<dim>& model) {
   Vec<dim> sum = Vec<dim>::Zero();
-  for_each_point(model, [&](const auto& body, std::size_t p) { sum += body.points.mass[p] * body.points.velocity[p]; });
+  for_each_point(
+      model, [&](const auto& body, std::size_t p) { sum += body.points.mass[p] * body.points.velocity[p]; });
   return sum;
 }
 /// About the origin; the antisymmetric matrix x ^ m v.
@@ -103,7 +107,8 @@ double stress_error(const Model<dim>& model, F&& reference) {
 }
 
 /// Explicit options with a given step.
-inline ExplicitOptions explicit_steps(double dt, Mass mass = Mass::lumped, StressUpdate stress = StressUpdate::usl,
+inline ExplicitOptions explicit_steps(double dt, Mass mass = Mass::lumped,
+                                      StressUpdate stress = StressUpdate::usl,
                                       VelocityUpdate velocity = VelocityUpdate::flip) {
   ExplicitOptions e;
   e.dt = dt, e.duration = 1e9, e.mass = mass, e.stress_update = stress, e.velocity_update = velocity;
@@ -116,8 +121,8 @@ constexpr StressUpdate all_schemes[] = {StressUpdate::usf, StressUpdate::usl, St
 enum class MassKind { lumped, consistent, ghost };
 constexpr MassKind all_masses[] = {MassKind::lumped, MassKind::consistent, MassKind::ghost};
 
-/// The consistent mass alone is only solvable while no function hangs on the tip of a domain (Coombs 2023, section
-/// 2.3): with linear functions and points that stay in their cells.
+/// The consistent mass alone is only solvable while no function hangs on the tip of a domain (Coombs 2023,
+/// section 2.3): with linear functions and points that stay in their cells.
 inline bool solvable(MassKind kind, bool gimp) { return kind != MassKind::consistent || !gimp; }
 
 inline Mass apply(MassKind kind, ModelOptions& o) {

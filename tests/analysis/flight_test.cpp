@@ -9,7 +9,8 @@ using namespace analysis_test;
 
 template <int dim>
 ModelOptions block_in_space(const AnyLaw& law, bool gimp) {
-  auto o = on_grid<dim>(Vec<dim>::Constant(-2.0), Vec<dim>::Constant(2.0), MultiIndex<dim>::Constant(dim == 2 ? 16 : 10), gimp);
+  auto o = on_grid<dim>(Vec<dim>::Constant(-2.0), Vec<dim>::Constant(2.0),
+                        MultiIndex<dim>::Constant(dim == 2 ? 16 : 10), gimp);
   add_box<dim>(o, Vec<dim>::Constant(-0.5), Vec<dim>::Constant(0.5), law);
   return o;
 }
@@ -20,7 +21,8 @@ TEST(FreeFlight, TranslationIsExactAndStressFree) {
   for (const bool gimp : {false, true})
     for (const MassKind kind : all_masses)
       for (const StressUpdate scheme : all_schemes)
-        for (const VelocityUpdate update : {VelocityUpdate::flip, VelocityUpdate::pic, VelocityUpdate::apic}) {
+        for (const VelocityUpdate update :
+             {VelocityUpdate::flip, VelocityUpdate::pic, VelocityUpdate::apic}) {
           auto o = block_in_space<2>(soft, gimp);
           const Mass mass = apply(kind, o);
           const Vec<2> v(3.0, -1.7);
@@ -104,7 +106,9 @@ TEST(FreeFlight, AStressedSpinIsCarriedRound) {
   const double dt = 1e-3;
   Explicit<2> run(model, explicit_steps(dt, mass));
   std::vector<Vec<2>> start(static_cast<std::size_t>(model.bodies[0].points.size()));
-  for_each_point(model, [&](const auto& b, std::size_t p) { start[static_cast<std::size_t>(b.points.id[p])] = b.points.position[p]; });
+  for_each_point(model, [&](const auto& b, std::size_t p) {
+    start[static_cast<std::size_t>(b.points.id[p])] = b.points.position[p];
+  });
   for (int k = 0; k < 1000; ++k) run.step(dt);
   // Euler-Cromer's turn per step is exact to second order; centrifugal strain is rho omega^2 r^2 / E = 1e-2.
   for_each_point(model, [&](const auto& b, std::size_t p) {

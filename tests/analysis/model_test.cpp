@@ -87,7 +87,8 @@ TEST(Explicit, VelocitiesThatAreNotFiniteStopBeforeThePointsMove) {
     EXPECT_NE(what.find("dt"), std::string::npos) << what;
   }
   EXPECT_EQ(model.time, 0.0);
-  for_each_point(model, [](const auto& body, std::size_t p) { ASSERT_EQ(body.points.displacement[p].norm(), 0.0); });
+  for_each_point(model,
+                 [](const auto& body, std::size_t p) { ASSERT_EQ(body.points.displacement[p].norm(), 0.0); });
 }
 
 TEST(Domains, GrowOverSeveralCellsAndThenStop) {
@@ -124,7 +125,8 @@ TEST(Model, SamplesPointsWithTheVolumeOfTheirBody) {
   EXPECT_EQ(model.n_points(), 4 * 2 * 2 * 27 + 2);
   EXPECT_NEAR(total_mass(model), 1000.0 * 0.25 + 500.0 * 0.5 * 0.0625, 1e-10);
   std::vector<char> seen(static_cast<std::size_t>(model.n_points()), 0);
-  for_each_point(model, [&](const auto& body, std::size_t p) { seen[static_cast<std::size_t>(body.points.id[p])]++; });
+  for_each_point(
+      model, [&](const auto& body, std::size_t p) { seen[static_cast<std::size_t>(body.points.id[p])]++; });
   for (const char count : seen) ASSERT_EQ(count, 1);
 }
 

@@ -25,7 +25,8 @@ QuasiStaticOptions newton(double tolerance, int iterations) {
 
 TEST(Newton, ConvergesQuadratically) {
   for (const bool gimp : {false, true})
-    for (const AnyLaw& law : {AnyLaw(Hencky{1000.0, 1e6, 0.3}), AnyLaw(VonMises{1000.0, 1e6, 0.3, 3e4, 1e5})}) {
+    for (const AnyLaw& law :
+         {AnyLaw(Hencky{1000.0, 1e6, 0.3}), AnyLaw(VonMises{1000.0, 1e6, 0.3, 3e4, 1e5})}) {
       Model<2> model(cantilever(law, gimp, 4.0));
       Implicit<2> run(model, newton(1e-11, 25));
       const auto r = run.step(1.0).residuals;
@@ -84,11 +85,13 @@ TEST(Newton, LineSearchDoesNotHurtAndNeverRaisesTheResidual) {
   auto plain = newton(1e-9, 25), search = plain;
   search.line_search = true;
   for (const double gravity : {1.0, 12.0}) {
-    Model<2> one(cantilever(Hencky{1000.0, 1e6, 0.3}, true, gravity)), two(cantilever(Hencky{1000.0, 1e6, 0.3}, true, gravity));
+    Model<2> one(cantilever(Hencky{1000.0, 1e6, 0.3}, true, gravity)),
+        two(cantilever(Hencky{1000.0, 1e6, 0.3}, true, gravity));
     Implicit<2> a(one, plain), b(two, search);
     a.step(1.0);
     const auto record = b.step(1.0);
-    for (std::size_t k = 1; k < record.residuals.size(); ++k) EXPECT_LE(record.residuals[k], record.residuals[k - 1]);
+    for (std::size_t k = 1; k < record.residuals.size(); ++k)
+      EXPECT_LE(record.residuals[k], record.residuals[k - 1]);
     for (std::size_t p = 0; p < one.bodies[0].points.position.size(); ++p)
       ASSERT_LT((one.bodies[0].points.position[p] - two.bodies[0].points.position[p]).norm(), 1e-6);
   }

@@ -1,5 +1,5 @@
-// The same runs on one and on several ranks. On one rank the program writes every point's state to the file named
-// by its argument; on several it compares with that file. Exit status 1 where they differ.
+// The same runs on one and on several ranks. On one rank the program writes every point's state to the file
+// named by its argument; on several it compares with that file. Exit status 1 where they differ.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,7 +71,8 @@ class Comparison {
     list.push_back(sum);
     if (Session::size() == 1) {
       std::ofstream out(file_ + "." + name, std::ios::binary);
-      out.write(reinterpret_cast<const char*>(list.data()), static_cast<std::streamsize>(list.size() * sizeof(Record)));
+      out.write(reinterpret_cast<const char*>(list.data()),
+                static_cast<std::streamsize>(list.size() * sizeof(Record)));
       check(bool(out), name + ": the reference cannot be written");
       return;
     }
@@ -79,8 +80,10 @@ class Comparison {
     std::ifstream in(file_ + "." + name, std::ios::binary | std::ios::ate);
     const auto bytes = in.tellg();
     in.seekg(0);
-    in.read(reinterpret_cast<char*>(reference.data()), static_cast<std::streamsize>(reference.size() * sizeof(Record)));
-    check(in && bytes == static_cast<std::streamoff>(list.size() * sizeof(Record)), name + ": another number of points");
+    in.read(reinterpret_cast<char*>(reference.data()),
+            static_cast<std::streamsize>(reference.size() * sizeof(Record)));
+    check(in && bytes == static_cast<std::streamoff>(list.size() * sizeof(Record)),
+          name + ": another number of points");
     compare(name, list, reference, 0, list.size() - 1);
     compare(name + " (totals)", list, reference, list.size() - 1, list.size());
   }
@@ -106,7 +109,8 @@ class Comparison {
           worst = std::max(worst, std::abs(ours[p].values[k] - reference[p].values[k]));
         }
       }
-      check(worst <= 1e-10 * scale, fmt::format("{}: {} differs by {:.2e} of {:.2e}", name, fields[f], worst, scale));
+      check(worst <= 1e-10 * scale,
+            fmt::format("{}: {} differs by {:.2e} of {:.2e}", name, fields[f], worst, scale));
     }
   }
 
@@ -117,10 +121,12 @@ class Comparison {
 /// Two blocks that fly through the middle of the grid, where ranks meet, and collide.
 template <int dim>
 ModelOptions collision(bool gimp) {
-  auto o = on_grid<dim>(Vec<dim>::Constant(-1.0), Vec<dim>::Constant(1.0), MultiIndex<dim>::Constant(dim == 2 ? 16 : 8), gimp);
+  auto o = on_grid<dim>(Vec<dim>::Constant(-1.0), Vec<dim>::Constant(1.0),
+                        MultiIndex<dim>::Constant(dim == 2 ? 16 : 8), gimp);
   for (const double side : {-1.0, 1.0}) {
     const Vec<dim> centre = Vec<dim>::Constant(0.32 * side);
-    auto& body = add_box<dim>(o, centre - Vec<dim>::Constant(0.25), centre + Vec<dim>::Constant(0.25), Hencky{1000.0, 1e4, 0.3});
+    auto& body = add_box<dim>(o, centre - Vec<dim>::Constant(0.25), centre + Vec<dim>::Constant(0.25),
+                              Hencky{1000.0, 1e4, 0.3});
     body.velocity.assign(dim, -2.0 * side), body.velocity[0] *= 1.2;
     body.velocity_gradient.assign(dim, std::vector<double>(dim, 0.0));
     body.velocity_gradient[0][1] = -1.0, body.velocity_gradient[1][0] = 1.5;
@@ -129,8 +135,8 @@ ModelOptions collision(bool gimp) {
 }
 
 template <int dim>
-void explicit_case(Comparison& comparison, const std::string& name, ModelOptions o, MassKind kind, StressUpdate scheme,
-                   VelocityUpdate update) {
+void explicit_case(Comparison& comparison, const std::string& name, ModelOptions o, MassKind kind,
+                   StressUpdate scheme, VelocityUpdate update) {
   const Mass mass = apply(kind, o);
   Model<dim> model(o);
   const auto before = ids(model);
@@ -148,7 +154,8 @@ void explicit_case(Comparison& comparison, const std::string& name, ModelOptions
 
 template <int dim>
 void static_case(Comparison& comparison, const std::string& name, bool gimp, bool ghost) {
-  auto o = on_grid<dim>(Vec<dim>::Constant(-0.75), Vec<dim>::Constant(1.25), MultiIndex<dim>::Constant(8), gimp);
+  auto o =
+      on_grid<dim>(Vec<dim>::Constant(-0.75), Vec<dim>::Constant(1.25), MultiIndex<dim>::Constant(8), gimp);
   Vec<dim> lower = Vec<dim>::Constant(-0.25), upper = Vec<dim>::Constant(0.25);
   lower[0] = -0.75, upper[0] = 0.75;
   add_box<dim>(o, lower, upper, Hencky{1000.0, 1e6, 0.3});
@@ -164,7 +171,8 @@ void static_case(Comparison& comparison, const std::string& name, bool gimp, boo
     t.corner = {-0.25, 0.25, 0.25}, t.edges = {{1.0, 0.0, 0.0}, {0.0, 0.0, -0.5}}, t.points = {9, 5};
   o.tractions.push_back(t);
   PointLoadOptions load;
-  load.label = "tip", load.body = "body 0", load.nearest = {std::vector<double>(upper.data(), upper.data() + dim)};
+  load.label = "tip", load.body = "body 0",
+  load.nearest = {std::vector<double>(upper.data(), upper.data() + dim)};
   load.force.assign(dim, 50.0), load.factor = ramp();
   o.loads.push_back(load);
   if (ghost) o.stabilisation = GhostOptions{};
@@ -203,12 +211,17 @@ void leaving(Comparison& comparison) {
 bool all_cases(const std::string& file) {
   Comparison comparison(file);
   using enum MassKind;
-  explicit_case<2>(comparison, "lumped", collision<2>(false), lumped, StressUpdate::usl, VelocityUpdate::flip);
-  explicit_case<2>(comparison, "lumped-gimp-usf", collision<2>(true), lumped, StressUpdate::usf, VelocityUpdate::flip);
-  explicit_case<2>(comparison, "lumped-gimp-apic", collision<2>(true), lumped, StressUpdate::musl, VelocityUpdate::apic);
+  explicit_case<2>(comparison, "lumped", collision<2>(false), lumped, StressUpdate::usl,
+                   VelocityUpdate::flip);
+  explicit_case<2>(comparison, "lumped-gimp-usf", collision<2>(true), lumped, StressUpdate::usf,
+                   VelocityUpdate::flip);
+  explicit_case<2>(comparison, "lumped-gimp-apic", collision<2>(true), lumped, StressUpdate::musl,
+                   VelocityUpdate::apic);
   explicit_case<2>(comparison, "ghost", collision<2>(true), ghost, StressUpdate::usl, VelocityUpdate::flip);
-  explicit_case<3>(comparison, "lumped-3d", collision<3>(true), lumped, StressUpdate::usl, VelocityUpdate::flip);
-  explicit_case<3>(comparison, "ghost-3d", collision<3>(false), ghost, StressUpdate::usl, VelocityUpdate::flip);
+  explicit_case<3>(comparison, "lumped-3d", collision<3>(true), lumped, StressUpdate::usl,
+                   VelocityUpdate::flip);
+  explicit_case<3>(comparison, "ghost-3d", collision<3>(false), ghost, StressUpdate::usl,
+                   VelocityUpdate::flip);
   static_case<2>(comparison, "static", false, true);
   static_case<2>(comparison, "static-gimp", true, true);
   static_case<3>(comparison, "static-3d", true, true);

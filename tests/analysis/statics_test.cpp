@@ -46,7 +46,8 @@ void patch_is_uniform(bool gimp, bool ghost) {
   Sym<dim> tau = Sym<dim>::Zero();
   tau[0] = stiffness * eps;
   if (dim == 2) tau[2] = nu * tau[0];
-  EXPECT_LT(stress_error(model, [&](const auto&, std::size_t) { return tau; }), 1e-6 * tau[0]) << dim << gimp << ghost;
+  EXPECT_LT(stress_error(model, [&](const auto&, std::size_t) { return tau; }), 1e-6 * tau[0])
+      << dim << gimp << ghost;
   for_each_point(model, [&](const auto& body, std::size_t k) {
     const Vec<dim> start = body.points.position[k] - body.points.displacement[k];
     ASSERT_NEAR(body.points.displacement[k][0], (std::exp(eps) - 1) * start[0], 1e-8);
@@ -79,7 +80,8 @@ TEST(PatchTest, PrescribedDisplacementGivesUniformStress) {
   const double eps = std::log(0.9), lambda = 400.0, mu = 400.0;
   const Sym<2> tau(eps * (lambda + 2 * mu), eps * lambda, eps * lambda, 0.0);
   EXPECT_LT(stress_error(model, [&](const auto&, std::size_t) { return tau; }), 1e-6);
-  EXPECT_NEAR(model.reactions[3][0], tau[0] / 0.9, 1e-6) << "Kirchhoff stress over stretch is force per initial area";
+  EXPECT_NEAR(model.reactions[3][0], tau[0] / 0.9, 1e-6)
+      << "Kirchhoff stress over stretch is force per initial area";
   EXPECT_NEAR(model.reactions[0][0], -tau[0] / 0.9, 1e-6);
   EXPECT_NEAR(record.strain, 0.5 * (lambda + 2 * mu) * eps * eps, 1e-8);
 }
@@ -99,15 +101,20 @@ ColumnResult column(int n, int steps) {
   Implicit<2> run(model, load_steps(steps, 1e-8));
   ColumnResult result{0.0, 0.0, {}};
   for (int k = 0; k < steps; ++k) result.last = run.step(1.0 / steps);
-  EXPECT_NEAR(model.reactions[2][1], rho * g * height * h, 1e-6 * rho * g * height * h) << "the ground carries the weight";
+  EXPECT_NEAR(model.reactions[2][1], rho * g * height * h, 1e-6 * rho * g * height * h)
+      << "the ground carries the weight";
   double top = 0.0, volume = 0.0;
   for_each_point(model, [&](const auto& body, std::size_t p) {
     const auto& points = body.points;
     const double start = points.position[p][1] - points.displacement[p][1];
     const double sigma = stress_of(body, p)[1] / points.deformation_gradient[p].determinant();
-    result.stress += std::abs(sigma + rho * g * (height - start)) * points.volume[p], volume += points.volume[p];
-    EXPECT_NEAR(points.half_length[p][1], 0.25 * h * points.deformation_gradient[p](1, 1), 1e-12) << "domains follow";
-    if (start > top) top = start, result.top = points.displacement[p][1] + (points.deformation_gradient[p](1, 1) - 1) * 0.25 * h;
+    result.stress += std::abs(sigma + rho * g * (height - start)) * points.volume[p],
+        volume += points.volume[p];
+    EXPECT_NEAR(points.half_length[p][1], 0.25 * h * points.deformation_gradient[p](1, 1), 1e-12)
+        << "domains follow";
+    if (start > top)
+      top = start,
+      result.top = points.displacement[p][1] + (points.deformation_gradient[p](1, 1) - 1) * 0.25 * h;
   });
   result.stress /= rho * g * height * volume;
   return result;
@@ -117,9 +124,11 @@ TEST(HenckyColumn, ConvergesToTheExactSolution) {
   const double exact = -25.940354;  // (W(4) + W(4)^2/2) 12.5 - 50
   const auto coarse = column(8, 20), middle = column(16, 20), fine = column(32, 20);
   EXPECT_NEAR(fine.top, exact, 0.1);
-  EXPECT_GT(order(coarse.stress, middle.stress), 0.9) << coarse.stress << " " << middle.stress << " " << fine.stress;
+  EXPECT_GT(order(coarse.stress, middle.stress), 0.9)
+      << coarse.stress << " " << middle.stress << " " << fine.stress;
   EXPECT_GT(order(middle.stress, fine.stress), 0.9);
-  EXPECT_GT(order(std::abs(coarse.top - exact), std::abs(middle.top - exact)), 0.9) << coarse.top << " " << middle.top << " " << fine.top;
+  EXPECT_GT(order(std::abs(coarse.top - exact), std::abs(middle.top - exact)), 0.9)
+      << coarse.top << " " << middle.top << " " << fine.top;
   EXPECT_GT(order(std::abs(middle.top - exact), std::abs(fine.top - exact)), 0.9);
 }
 
@@ -140,7 +149,9 @@ TEST(InitialStress, K0IsAtRestUnderItsGravity) {
       Model<2> model(soil(law, gimp));
       Implicit<2> run(model, load_steps(1));
       run.step(1.0);
-      for_each_point(model, [&](const auto& body, std::size_t p) { ASSERT_LT(body.points.displacement[p].norm(), 1e-9); });
+      for_each_point(model, [&](const auto& body, std::size_t p) {
+        ASSERT_LT(body.points.displacement[p].norm(), 1e-9);
+      });
       EXPECT_NEAR(model.reactions[2][1], 2000.0 * 10.0 * 2.0, 1e-5);
       // Sums over 2 points a cell and direction see the linear pressure exactly.
       EXPECT_NEAR(model.reactions[0][0], 0.4 * 0.5 * 2000.0 * 10.0, 1e-5);
@@ -153,7 +164,8 @@ TEST(InitialStress, K0StaysAtRestInExplicitSteps) {
     Model<2> model(soil(Hencky{2000.0, 1e6, 0.3}, gimp));
     Explicit<2> run(model, explicit_steps(1e-3));
     for (int k = 0; k < 100; ++k) run.step(1e-3);
-    for_each_point(model, [&](const auto& body, std::size_t p) { ASSERT_LT(body.points.velocity[p].norm(), 1e-10); });
+    for_each_point(
+        model, [&](const auto& body, std::size_t p) { ASSERT_LT(body.points.velocity[p].norm(), 1e-10); });
     EXPECT_NEAR(model.reactions[2][1], 2000.0 * 10.0 * 2.0, 1e-5);
   }
 }
@@ -191,7 +203,8 @@ TEST(PointLoads, AreCarriedByTheWall) {
   add_box<2>(o, {0, -0.25}, {2, 0.25}, Hencky{1.0, 1e5, 0.3});
   hold(o, "x", 0.0, "xy");
   PointLoadOptions load;
-  load.label = "tip", load.body = "body 0", load.nearest = {{2.0, 0.1}, {2.0, -0.1}}, load.force = {0.0, -40.0};
+  load.label = "tip", load.body = "body 0", load.nearest = {{2.0, 0.1}, {2.0, -0.1}},
+  load.force = {0.0, -40.0};
   load.factor = ramp();
   o.loads.push_back(load);
   o.stabilisation = GhostOptions{};

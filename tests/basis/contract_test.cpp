@@ -36,7 +36,8 @@ struct BasisContract : testing::Test {
       for (std::size_t k = 0; k < points.size(); ++k)
         for (std::size_t m = 0; m < (Basis::uses_domains ? lengths.size() : 1); ++m) {
           Vec<dim> l;
-          for (int d = 0; d < dim; ++d) l[d] = lengths[(m + static_cast<std::size_t>(d) * (k % 3)) % lengths.size()];
+          for (int d = 0; d < dim; ++d)
+            l[d] = lengths[(m + static_cast<std::size_t>(d) * (k % 3)) % lengths.size()];
           f(space, basis, points[k], l);
           if (testing::Test::HasFailure()) return;
         }
@@ -82,7 +83,8 @@ TYPED_TEST(BasisContract, ReproducesLinearFieldsWhereTheDomainIsInside) {
       gradient += space.node_position(i) * e.dphi[static_cast<std::size_t>(i)].transpose();
     }
     // Overlaps below 1e-12 of a cell count as touching: that is how exact the position can be.
-    EXPECT_LT((position - x).norm(), 3e-12 * space.grid().shortest_side()) << x.transpose() << " l " << l.transpose();
+    EXPECT_LT((position - x).norm(), 3e-12 * space.grid().shortest_side())
+        << x.transpose() << " l " << l.transpose();
     EXPECT_LT((gradient - Mat<dim>::Identity()).norm(), 1e-13);
   });
 }
@@ -105,7 +107,8 @@ TYPED_TEST(BasisContract, GradientsAreTheDerivativesOfTheValues) {
       up[d] += step, down[d] -= step;
       const auto above = evaluate<dim>(space, basis, up, l), below = evaluate<dim>(space, basis, down, l);
       for (std::size_t i = 0; i < here.phi.size(); ++i)
-        ASSERT_NEAR((above.phi[i] - below.phi[i]) / (up[d] - down[d]), here.dphi[i][d], 2e-5 / grid.shortest_side())
+        ASSERT_NEAR((above.phi[i] - below.phi[i]) / (up[d] - down[d]), here.dphi[i][d],
+                    2e-5 / grid.shortest_side())
             << "at " << x.transpose() << " l " << l.transpose();
     }
   });

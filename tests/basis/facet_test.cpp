@@ -41,7 +41,8 @@ TYPED_TEST(FacetJumpsTest, WeightsSumToTheFacetsSize) {
     for (const double w : jumps.weight) sum += w;
     ASSERT_NEAR(sum, size, 1e-15);
     const int n = facet.direction;
-    ASSERT_DOUBLE_EQ(jumps.normal_extent, 0.5 * (space.grid().spacing(n, cell[n]) + space.grid().spacing(n, cell[n] + 1)));
+    ASSERT_DOUBLE_EQ(jumps.normal_extent,
+                     0.5 * (space.grid().spacing(n, cell[n]) + space.grid().spacing(n, cell[n] + 1)));
   });
 }
 
@@ -69,7 +70,8 @@ TYPED_TEST(FacetJumpsTest, IsTheDifferenceOfTheNormalDerivativesOfTheLinearBasis
     const Linear<dim> linear(space.grid(), NodeNumbering<dim>(space.window()));
     const int n = facet.direction;
     // Integral of the square of the jump over the facet, with three Gauss points a direction.
-    const double r[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)}, w[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const double r[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
+                 w[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     double exact = 0.0;
     for (int q = 0; q < (dim == 2 ? 3 : 9); ++q) {
       Vec<dim> x;

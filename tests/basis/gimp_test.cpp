@@ -51,7 +51,9 @@ TYPED_TEST(GimpForm, IsTheClosedForm) {
           double value[2], derivative[2];
           for (int d = 0; d < 2; ++d) {
             const double a = x[d] - l[d], b = x[d] + l[d];
-            value[d] = static_cast<double>(antiderivative(grid, d, node[d], b) - antiderivative(grid, d, node[d], a)) / (2 * l[d]);
+            value[d] = static_cast<double>(antiderivative(grid, d, node[d], b) -
+                                           antiderivative(grid, d, node[d], a)) /
+                       (2 * l[d]);
             derivative[d] = (hat(grid, d, node[d], b) - hat(grid, d, node[d], a)) / (2 * l[d]);
           }
           const auto k = static_cast<std::size_t>(i);
@@ -93,7 +95,8 @@ TYPED_TEST(GimpForm, SmallDomainsAreLinearFunctions) {
   points.resize(200);  // the random ones: not on a grid line
   for (const auto& x : points)
     for (const double l : {0.0, 1e-300, 1e-14, 1e-10, 1e-6}) {
-      const auto small = evaluate<2>(space, basis, x, Vec<2>(l, l)), none = evaluate<2>(space, linear, x, Vec<2>(l, l));
+      const auto small = evaluate<2>(space, basis, x, Vec<2>(l, l)),
+                 none = evaluate<2>(space, linear, x, Vec<2>(l, l));
       for (std::size_t i = 0; i < small.phi.size(); ++i) {
         ASSERT_NEAR(small.phi[i], none.phi[i], 1e-14) << "l " << l;
         ASSERT_LT((small.dphi[i] - none.dphi[i]).norm(), 1e-13) << "l " << l;

@@ -37,8 +37,15 @@ std::vector<Vec<dim>> positions(const StructuredGrid<dim>& grid, int n_random) {
   }
   const auto special = [&](int d, int k) {
     const double low = grid.lower()[d], high = grid.upper()[d], h = grid.shortest_side();
-    const double places[] = {low,           high,          grid.line(d, 3),  low + 1e-13, high - 0.3 * h,
-                             low + 0.4 * h, grid.line(d, 5), grid.line(d, 2) - 1e-15, 0.5 * (low + high)};
+    const double places[] = {low,
+                             high,
+                             grid.line(d, 3),
+                             low + 1e-13,
+                             high - 0.3 * h,
+                             low + 0.4 * h,
+                             grid.line(d, 5),
+                             grid.line(d, 2) - 1e-15,
+                             0.5 * (low + high)};
     return places[k % 9];
   };
   for (int k = 0; k < 81; ++k) {
@@ -51,7 +58,8 @@ std::vector<Vec<dim>> positions(const StructuredGrid<dim>& grid, int n_random) {
 
 /// Half-lengths that a basis of this width promises to carry, from zero up; h is the shortest side.
 inline std::vector<double> half_lengths(int width, double h) {
-  std::vector<double> list{0.0, 1e-300, 1e-16 * h, 1e-12 * h, 1e-9 * h, 1e-3 * h, 0.125 * h, 0.25 * h, 0.4999 * h, 0.5 * h};
+  std::vector<double> list{0.0,      1e-300,    1e-16 * h, 1e-12 * h,  1e-9 * h,
+                           1e-3 * h, 0.125 * h, 0.25 * h,  0.4999 * h, 0.5 * h};
   if (width == 5)
     for (const double l : {0.5001, 0.75, 1.0, 1.25, 1.4999, 1.5}) list.push_back(l * h);
   return list;

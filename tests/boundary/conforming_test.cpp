@@ -85,7 +85,9 @@ TEST(Conforming, TheLastConditionWins) {
   const std::vector<Conforming<2>> conditions{Conforming<2>(on("x", 0.0, {"x", "y"}), *s.space),
                                               Conforming<2>(on("y", 0.0, {"y"}), *s.space)};
   const Constraints<2> c(conditions, s.space->n_functions());
-  const auto at = [&](int i, int j) { return static_cast<std::size_t>(2 * s.space->window().node_index({i, j})); };
+  const auto at = [&](int i, int j) {
+    return static_cast<std::size_t>(2 * s.space->window().node_index({i, j}));
+  };
   EXPECT_EQ(c.condition[at(0, 0)], 0);
   EXPECT_EQ(c.condition[at(0, 0) + 1], 1);
   EXPECT_EQ(c.condition[at(0, 3) + 1], 0);

@@ -130,6 +130,10 @@ TEST(Case, ReadsTheGoodOne) {
   EXPECT_DOUBLE_EQ(c.loads[0].factor(0.5), 0.5);
   EXPECT_EQ(c.output.track[0].label, "tip");
   EXPECT_EQ(default_output_folder(c), std::filesystem::path("results/case"));
+  EXPECT_EQ(default_output_folder(read_case(CaseSource{"a/beam/case.toml", "a/beam", good, {}})),
+            std::filesystem::path("results/beam"));
+  EXPECT_EQ(default_output_folder(read_case(CaseSource{"a/beam/thin.toml", "a/beam", good, {}})),
+            std::filesystem::path("results/thin"));
   EXPECT_EQ(c.file.text, good);
 }
 

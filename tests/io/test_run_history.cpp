@@ -57,12 +57,12 @@ TEST(RunHistory, CriticalTimeStepIsTheEdgeOfStability) {
   EXPECT_LT(condition, 1e4);
   const auto growth = [&](double share) {
     const std::string name = fmt::format("{}", share);
-    run_case(read(trembling(share * critical, 200, "consistent", "")), folder / name, Talk::quiet);
+    run_case(read(trembling(share * critical, 50, "consistent", "")), folder / name, Talk::quiet);
     const auto total = column(folder / (name + "/history.csv"), "total energy [J/m]");
     return *std::max_element(total.begin(), total.end()) / total.front();
   };
-  EXPECT_LT(growth(0.97), 3.0);
-  EXPECT_GT(growth(1.03), 1e3);
+  EXPECT_LT(growth(0.9), 20.0);  // close to the edge the energy of a stable step swings, but does not grow
+  EXPECT_GT(growth(1.02), 1e6);
 }
 
 TEST(RunHistory, LumpedConditionIsTheRatioOfMasses) {

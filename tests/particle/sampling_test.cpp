@@ -52,8 +52,12 @@ void fills_cells(SamplingMethod method) {
     }
   }
 }
-TEST(Sampling, FillsCellsEvenly) { fills_cells<2>(SamplingMethod::cells), fills_cells<3>(SamplingMethod::cells); }
-TEST(Sampling, FillsCellsAtGaussPoints) { fills_cells<2>(SamplingMethod::gauss), fills_cells<3>(SamplingMethod::gauss); }
+TEST(Sampling, FillsCellsEvenly) {
+  fills_cells<2>(SamplingMethod::cells), fills_cells<3>(SamplingMethod::cells);
+}
+TEST(Sampling, FillsCellsAtGaussPoints) {
+  fills_cells<2>(SamplingMethod::gauss), fills_cells<3>(SamplingMethod::gauss);
+}
 
 TEST(Sampling, GaussPointsIntegratePolynomials) {
   for (int m = 1; m <= 5; ++m) {
@@ -108,7 +112,8 @@ TEST(Sampling, GivesVelocitiesAndStress) {
   EXPECT_THROW(sample<2>(o, unequal<2>(), true, 0, {}), InputError);
   o.k0.reset();
   const auto constant = sample<2>(o, unequal<2>(), true, 0, {});
-  for_each_state<2>(constant, [&](int, const auto&, const auto& state) { EXPECT_EQ(state.stress, Sym<2>(1, 2, 3, 4)); });
+  for_each_state<2>(
+      constant, [&](int, const auto&, const auto& state) { EXPECT_EQ(state.stress, Sym<2>(1, 2, 3, 4)); });
 }
 
 TEST(Sampling, WrongDescriptionsAreInputErrors) {
@@ -169,7 +174,8 @@ TEST(Order, RemovesPointsAndNoticesThoseOutside) {
   for (std::size_t p = 0; p < gone.size(); ++p) gone[p] = body.points.cell[p] < 0;
   remove(body, gone);
   EXPECT_EQ(body.points.size(), 23);
-  body.for_each_field([](std::string_view, const auto& field) { EXPECT_TRUE(field.empty() || field.size() == 23); });
+  body.for_each_field(
+      [](std::string_view, const auto& field) { EXPECT_TRUE(field.empty() || field.size() == 23); });
   for (const auto id : body.points.id) EXPECT_TRUE(id != 3 && id != 7);
 }
 

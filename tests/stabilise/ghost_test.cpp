@@ -83,7 +83,8 @@ TEST(GhostFacets, OfAnLShape) {
   fill<2>(active, *space, {{1, 1}, {4, 2}}, 0);
   fill<2>(active, *space, {{1, 2}, {3, 4}}, 0);
   EXPECT_EQ(places(*space, ghost_facets<2>(*space, active, bodies<2>(), no_edges)),
-            (std::set<Place>{{1, 1, 0}, {2, 1, 0}, {1, 1, 1}, {2, 1, 1}, {1, 2, 0}, {1, 2, 1}, {2, 2, 1}, {1, 3, 0}}));
+            (std::set<Place>{
+                {1, 1, 0}, {2, 1, 0}, {1, 1, 1}, {2, 1, 1}, {1, 2, 0}, {1, 2, 1}, {2, 2, 1}, {1, 3, 0}}));
 }
 
 TEST(GhostFacets, ACellThatTouchesNothingHasNone) {
@@ -135,7 +136,8 @@ TEST(GhostFacets, AnEdgeOfTheGridWithoutAConditionIsAnEmptyNeighbour) {
   const auto list = bodies<2>();
   EXPECT_EQ(ghost_facets<2>(*space, active, list, no_edges).size(), 12U);
   EXPECT_EQ(ghost_facets<2>(*space, active, list, {true, true, true, true}).size(), 0U);
-  // Lower y edge held: cells (1, 0) and (1, 1) are inner ones, so only the facet between them is not penalised.
+  // Lower y edge held: cells (1, 0) and (1, 1) are inner ones, so only the facet between them is not
+  // penalised.
   const auto set = places(*space, ghost_facets<2>(*space, active, list, {false, false, true, false}));
   EXPECT_EQ(set.size(), 11U);
   EXPECT_EQ(set.count({1, 0, 1}), 0U);
@@ -216,7 +218,8 @@ TEST(GhostFactor, FollowsItsUnits) {
 }
 
 TEST(GhostMatrix, OneFacetByHand) {
-  // Two unit-free cells of side h: u = |x - x_f| jumps by 2 across the facet, so u^T M_G u = factor h^3/3 * 4 * h.
+  // Two unit-free cells of side h: u = |x - x_f| jumps by 2 across the facet, so u^T M_G u = factor h^3/3 * 4
+  // * h.
   const auto space = make_space<2>({2, 1});
   const std::vector<GhostFacet> facets{{{space->window().cell_index({0, 0}), 0}, 900.0, 5e6}};
   BlockMatrix matrix(1);
@@ -228,7 +231,8 @@ TEST(GhostMatrix, OneFacetByHand) {
   add_ghost(*space, facets, options, GhostMatrix::mass, matrix);
   const double h = 0.5;
   std::vector<double> u(static_cast<std::size_t>(space->n_functions())), mu(u.size());
-  for (int i = 0; i < space->n_functions(); ++i) u[static_cast<std::size_t>(i)] = std::abs(space->node_position(i)[0] - h);
+  for (int i = 0; i < space->n_functions(); ++i)
+    u[static_cast<std::size_t>(i)] = std::abs(space->node_position(i)[0] - h);
   matrix.multiply(u, mu);
   double form = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) form += u[i] * mu[i];

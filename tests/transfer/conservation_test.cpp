@@ -103,7 +103,8 @@ TEST(GridToPoints, ApicKeepsMomentumAndAngularMomentum) {
     for (std::size_t i = 0; i < s.n(); ++i)
       if (sums[i * sums_stride<dim>] > 0)
         for (std::size_t d = 0; d < dim; ++d)
-          motion[i * motion_stride<dim> + d] = sums[i * sums_stride<dim> + 1 + d] / sums[i * sums_stride<dim>];
+          motion[i * motion_stride<dim> + d] =
+              sums[i * sums_stride<dim> + 1 + d] / sums[i * sums_stride<dim>];
     PointUpdate update;
     update.dt = 0.1, update.velocity = true, update.flip = 0.0, update.apic = true, update.motion = motion;
     grid_to_points<dim>(*s.space, s.body(), update);
@@ -155,10 +156,12 @@ TEST(GridToPoints, LinearFieldsArriveExactlyAtThePoints) {
     const Mat<dim> gradient = random.matrix<dim>(2.0);
     std::vector<double> motion(s.n() * motion_stride<dim>, 0.0);
     for (int i = 0; i < s.space->n_functions(); ++i)
-      Eigen::Map<Vec<dim>>(motion.data() + i * motion_stride<dim>) = v0 + gradient * s.space->node_position(i);
+      Eigen::Map<Vec<dim>>(motion.data() + i * motion_stride<dim>) =
+          v0 + gradient * s.space->node_position(i);
     const auto start = points.position;
     PointUpdate update;
-    update.dt = 1e-2, update.velocity = update.move = true, update.flip = 0.0, update.apic = true, update.motion = motion;
+    update.dt = 1e-2, update.velocity = update.move = true, update.flip = 0.0, update.apic = true,
+    update.motion = motion;
     grid_to_points<dim>(*s.space, s.body(), update);
     for (std::size_t p = 0; p < start.size(); ++p) {
       const Vec<dim> v = v0 + gradient * start[p];
@@ -180,7 +183,8 @@ TEST(ConsistentMass, RowsSumToTheLumpedMassAndTheFormIsTheEnergy) {
     std::vector<double> sums(s.n() * sums_stride<dim>, 0.0), rows(s.n());
     points_to_grid<dim>(*s.space, s.body(), Gather::inertia, Vec<dim>::Zero(), false, sums);
     mass.row_sums(rows);
-    for (std::size_t i = 0; i < s.n(); ++i) ASSERT_NEAR(rows[i], sums[i * sums_stride<dim>], 1e-13 * largest(rows));
+    for (std::size_t i = 0; i < s.n(); ++i)
+      ASSERT_NEAR(rows[i], sums[i * sums_stride<dim>], 1e-13 * largest(rows));
     const std::vector<double> v = Random(8).field(s.n() * dim, 1.0);
     std::vector<double> mv(v.size());
     mass.multiply_columns(v, mv, dim);

@@ -110,7 +110,8 @@ TEST(Stiffness, IsTheDerivativeOfTheInternalForce) {
     std::vector<double> product(u.size());
     stiffness.multiply(du, product);
     for (std::size_t k = 0; k < u.size(); ++k)
-      ASSERT_NEAR((up[k] - down[k]) / (2 * h), product[k], 2e-6 * largest(product)) << dim << "D, width " << width;
+      ASSERT_NEAR((up[k] - down[k]) / (2 * h), product[k], 2e-6 * largest(product))
+          << dim << "D, width " << width;
   });
 }
 
@@ -123,7 +124,8 @@ TEST(Stiffness, VonMisesSampleYields) {
   add_internal_force<3>(stencils, s.body(), Random(10).field(s.n() * 3, 0.02), 0.0, force);
   const auto& group = std::get<MaterialStates<VonMises, 3>>(s.body().material);
   int yielding = 0;
-  for (std::size_t p = 0; p < group.now.size(); ++p) yielding += group.now[p].plastic_strain > group.old[p].plastic_strain;
+  for (std::size_t p = 0; p < group.now.size(); ++p)
+    yielding += group.now[p].plastic_strain > group.old[p].plastic_strain;
   EXPECT_GT(yielding, s.points().size() / 4);
 }
 
@@ -136,15 +138,18 @@ TEST(Objectivity, RigidMotionRotatesTheStress) {
     Mat<dim> rotation = Mat<dim>::Identity();
     if (finite) {
       const double angle = 1.1;
-      rotation(0, 0) = rotation(1, 1) = std::cos(angle), rotation(1, 0) = std::sin(angle), rotation(0, 1) = -std::sin(angle);
+      rotation(0, 0) = rotation(1, 1) = std::cos(angle), rotation(1, 0) = std::sin(angle),
+                  rotation(0, 1) = -std::sin(angle);
       if constexpr (dim == 3) {
         Mat<3> about_x = Mat<3>::Identity();
-        about_x(1, 1) = about_x(2, 2) = std::cos(0.4), about_x(2, 1) = std::sin(0.4), about_x(1, 2) = -std::sin(0.4);
+        about_x(1, 1) = about_x(2, 2) = std::cos(0.4), about_x(2, 1) = std::sin(0.4),
+                   about_x(1, 2) = -std::sin(0.4);
         rotation = about_x * rotation;
       }
     }
     const Vec<dim> shift = Random(1).vector<dim>(3.0);
-    const std::vector<double> u = s.at_nodes([&](const Vec<dim>& x) { return Vec<dim>(rotation * x - x + shift); });
+    const std::vector<double> u =
+        s.at_nodes([&](const Vec<dim>& x) { return Vec<dim>(rotation * x - x + shift); });
     std::vector<double> force(u.size(), 0.0), still(u.size(), 0.0), none(u.size(), 0.0);
     add_internal_force<dim>(stencils, s.body(), none, 0.0, still);
     const double energy = trial_energy(s.body());

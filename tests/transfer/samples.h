@@ -13,7 +13,9 @@ namespace wisp::transfer_test {
 class Random {
  public:
   explicit Random(unsigned seed) : generator_(seed) {}
-  double operator()(double amplitude) { return std::uniform_real_distribution<double>(-amplitude, amplitude)(generator_); }
+  double operator()(double amplitude) {
+    return std::uniform_real_distribution<double>(-amplitude, amplitude)(generator_);
+  }
   template <int dim>
   Vec<dim> vector(double amplitude) {
     Vec<dim> v;
@@ -58,13 +60,12 @@ inline Hencky sample_hencky() { return {800.0, 1000.0, 0.3}; }
 inline LinearElastic sample_linear() { return {800.0, 1000.0, 0.3}; }
 inline VonMises sample_von_mises() { return {800.0, 1000.0, 0.3, 8.0, 60.0}; }
 
-/// `width` functions a direction: 2 linear, 3 and 5 GIMP. Points do not sit on grid lines; their domains, with
-/// random sizes that the width carries, lie inside the grid.
+/// `width` functions a direction: 2 linear, 3 and 5 GIMP. Points do not sit on grid lines; their domains,
+/// with random sizes that the width carries, lie inside the grid.
 template <int dim>
 Scene<dim> scene(const AnyLaw& law, int width, unsigned seed = 7) {
   std::array<std::vector<double>, dim> lines;
-  for (int d = 0; d < dim; ++d)
-    lines[static_cast<std::size_t>(d)] = {0.0, 0.5, 1.0, 1.4, 2.0, 2.5, 3.0};
+  for (int d = 0; d < dim; ++d) lines[static_cast<std::size_t>(d)] = {0.0, 0.5, 1.0, 1.4, 2.0, 2.5, 3.0};
   const StructuredGrid<dim> grid(lines);
   Scene<dim> s;
   s.space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells()), width > 2);
@@ -90,7 +91,8 @@ Scene<dim> scene(const AnyLaw& law, int width, unsigned seed = 7) {
   std::visit(
       [&](auto& group) {
         for (auto& state : group.old)
-          group.law.template stress<dim>(Kinematics<dim>{Mat<dim>::Identity() + random.matrix<dim>(0.01), 0.0}, state, state);
+          group.law.template stress<dim>(
+              Kinematics<dim>{Mat<dim>::Identity() + random.matrix<dim>(0.01), 0.0}, state, state);
       },
       s.body().material);
   return s;
@@ -100,8 +102,11 @@ Scene<dim> scene(const AnyLaw& law, int width, unsigned seed = 7) {
 template <int dim>
 std::vector<Sym<dim>> stresses(const Body<dim>& body, bool trial = false) {
   std::vector<Sym<dim>> list;
-  std::visit([&](const auto& group) { for (const auto& s : trial ? group.now : group.old) list.push_back(s.stress); },
-             body.material);
+  std::visit(
+      [&](const auto& group) {
+        for (const auto& s : trial ? group.now : group.old) list.push_back(s.stress);
+      },
+      body.material);
   return list;
 }
 

@@ -31,19 +31,17 @@ ModelOptions collision_options(const CollisionCase& collision) {
   options.basis = GimpOptions{};
   options.bodies = {ghost_body("lower", points, 0.0, 0.0, law), ghost_body("upper", points, 0.6, 0.6, law)};
   options.bodies[0].velocity = {0.1, 0.1}, options.bodies[1].velocity = {-0.1, -0.1};
-  if (collision.mass == Mass::consistent) {
-    options.stabilisation.emplace();
-    options.stabilisation->mass = quarter;
-  }
+  if (collision.mass == Mass::consistent) options.stabilisation = mass_stabilisation(density(law));
   return options;
 }
 
 }  // namespace
 
-double CollisionRun::mean_error() const {
+double CollisionRun::mean_error(bool of_grid) const {
   if (!failure.empty()) return std::numeric_limits<double>::infinity();
+  const std::vector<double>& moving = of_grid ? grid_kinetic : kinetic;
   double sum = 0.0;
-  for (std::size_t i = 0; i < time.size(); ++i) sum += std::abs(kinetic[i] + strain[i] - initial);
+  for (std::size_t i = 0; i < time.size(); ++i) sum += std::abs(moving[i] + strain[i] - initial);
   return sum / (static_cast<double>(time.size()) * initial);
 }
 
@@ -62,7 +60,8 @@ CollisionRun run_collision(const CollisionCase& collision,
       const double now = model.time;
       analysis.step(collision_duration / collision.steps, &record);
       run.time.push_back(now);
-      run.kinetic.push_back(record.kinetic), run.strain.push_back(record.strain);
+      run.kinetic.push_back(record.kinetic), run.grid_kinetic.push_back(record.grid_kinetic);
+      run.strain.push_back(record.strain);
       run.dissipation.push_back(record.dissipation);
       if (watch) watch(model);
     }

@@ -108,8 +108,13 @@ std::vector<CollisionCase> table_3_cases(bool full) {
   return cases;
 }
 
+std::optional<double> printed_error(const Published& published, const CollisionCase& c) {
+  return published.at({word(c.update), word(c.mass), c.points, std::to_string(c.steps)}, spacing(c.cells));
+}
+
 /// Gated rows for the paper's points (i) to (iii), over the runs that were made.
-void add_trends(const std::map<CollisionCase, double>& errors, std::vector<VerificationRow>& rows) {
+void add_trends(const Published& published, const std::map<CollisionCase, double>& errors,
+                std::vector<VerificationRow>& rows) {
   const auto add = [&](const std::string& label, const char* quantity, double value, bool holds) {
     VerificationRow row{label, quantity, std::nullopt, value};
     row.gated = true, row.verdict = holds;
@@ -125,10 +130,17 @@ void add_trends(const std::map<CollisionCase, double>& errors, std::vector<Verif
     const auto lumped = errors.find(other);
     if (c.mass == Mass::lumped || lumped == errors.end()) continue;
     const double ratio = lumped->second / error;
-    if (c.update == StressUpdate::usf)
-      add("(ii) " + name(c), "lumped over Ghost", ratio, c.cells == 20 ? ratio < 1.0 : ratio > 1.0);
-    else if (c.cells != 5)
-      // "an order of magnitude" is 5.6 to 14 in print.
+    if (c.update == StressUpdate::usf) {
+      // Where the print has lumped and Ghost within 5 % of each other, a change of outline decides: shown as
+      // found.
+      const double printed = printed_error(published, other).value() / printed_error(published, c).value();
+      const bool clear = std::abs(printed - 1.0) > 0.05;
+      VerificationRow row{"(ii) " + name(c), "lumped over Ghost", printed, ratio};
+      row.gated = clear, row.verdict = !clear || (ratio > 1.0) == (printed > 1.0);
+      rows.push_back(row);
+    }
+    if (c.update == StressUpdate::usl && c.cells != 5)
+      // "An order of magnitude" is a factor of 5.6 to 14 in print (the least at h = 0.05 m, fine points).
       add("(iii) " + name(c), "lumped over Ghost", ratio, ratio > 5.0);
   }
 }
@@ -140,14 +152,13 @@ std::vector<VerificationRow> table_3(Runs& runs, bool full) {
   for (const auto& c : table_3_cases(full)) {
     const double error = runs.of(c).mean_error();
     errors[c] = error;
-    VerificationRow row{
-        name(c), "mean energy error, 1e-3",
-        published.at({word(c.update), word(c.mass), c.points, std::to_string(c.steps)}, spacing(c.cells)),
-        1e3 * error};
+    VerificationRow row{name(c), "mean energy error, 1e-3", printed_error(published, c), 1e3 * error};
     row.tolerance = 0.25;  // a target, not gated: it depends on the outline
     rows.push_back(row);
+    rows.push_back({name(c), "the same with the nodal kinetic energy, 1e-3", std::nullopt,
+                    1e3 * runs.of(c).mean_error(true)});
   }
-  add_trends(errors, rows);
+  add_trends(published, errors, rows);
   return rows;
 }
 

@@ -38,4 +38,11 @@ StructuredGridOptions unit_grid(int cells) {
   return grid;
 }
 
+GhostOptions mass_stabilisation(double density) {
+  GhostOptions ghost;
+  ghost.units = GhostUnits::paper, ghost.scale = GhostScale::figures;
+  ghost.mass = 0.25 * density;
+  return ghost;
+}
+
 }  // namespace wisp::ghost_paper

@@ -31,10 +31,7 @@ Stretch stretch(Mass mass, VelocityUpdate update) {
   options.bodies = {ghost_body("ghost", resolution("coarse"), 0.3, 0.3, law)};
   options.bodies[0].velocity_gradient = {{1.0, 0.0}, {0.0, 1.0}};
   options.bodies[0].velocity_centre = {0.5, 0.5};
-  if (mass == Mass::consistent) {
-    options.stabilisation.emplace();
-    options.stabilisation->mass = quarter;
-  }
+  if (mass == Mass::consistent) options.stabilisation = mass_stabilisation(law.density);
   // The error wanted is that of the method: a direct solve leaves only rounding.
   options.solver.solver = SolverKind::direct;
   Model<2> model(options);

@@ -30,13 +30,6 @@ struct Sample {
   double velocity_plain;              ///< greatest nodal velocity without stabilisation, m/s
 };
 
-GhostOptions stabilisation() {
-  GhostOptions ghost;
-  ghost.units = GhostUnits::dimensionless;  // for the mass the paper's gamma_M = rho/4 as printed
-  ghost.mass = quarter;
-  return ghost;
-}
-
 /// Nodal velocities of points that all move with (1, 1) m/s.
 class Mapping {
  public:
@@ -95,7 +88,7 @@ std::vector<Sample> sweep(const Resolution& points, int stride) {
   options.bodies = {ghost_body("ghost", points, 0.0, 0.0, law)};
   options.bodies[0].velocity = {1.0, 1.0};
   Model<2> model(options);
-  const GhostOptions ghost = stabilisation();
+  const GhostOptions ghost = mass_stabilisation(law.density);
   std::vector<Sample> samples;
   for (int i = 0; i <= positions; ++i) {
     if (i > 0)
