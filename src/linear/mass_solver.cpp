@@ -22,20 +22,25 @@ void MassSolver::set_matrix(const BlockMatrix& mass, const Halo& halo, int colum
   mass_ = &mass;
   halo_ = halo;
   columns_ = columns;
-  if (pattern_id_ != mass.pattern_id()) make_compact();
+  // A rank may own active functions that only the points of its neighbours reach: no entry here, but solved here.
+  bool known = pattern_id_ == mass.pattern_id();
+  for (std::size_t f = 0; known && f < n; ++f) known = !active[f] || listed_[f];
+  if (!known) make_compact(active);
   take_flags(active, fixed);
   take_diagonal();
   for (auto& factor : factors_) factor->current = false;
 }
 
-void MassSolver::make_compact() {
+void MassSolver::make_compact(std::span<const char> active) {
   const Sparsity& pattern = mass_->pattern();
   const auto starts = pattern.starts();
   std::vector<int> compact(at(pattern.n_local()), -1);
   functions_.clear();
+  listed_.assign(at(pattern.n_local()), 0);
   starts_.assign(1, 0);
   for (int f = 0; f < pattern.n_local(); ++f) {
-    if (starts[at(f)] == starts[at(f) + 1]) continue;
+    if (starts[at(f)] == starts[at(f) + 1] && !active[at(f)]) continue;
+    listed_[at(f)] = 1;
     compact[at(f)] = static_cast<int>(functions_.size());
     functions_.push_back(f);
     starts_.push_back(starts[at(f) + 1]);

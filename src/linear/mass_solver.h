@@ -77,7 +77,7 @@ class MassSolver {
   void apply(const std::vector<double>& p, std::vector<double>& ap);
   void take_flags(std::span<const char> active, std::span<const char> fixed);
   void take_diagonal();
-  void make_compact();
+  void make_compact(std::span<const char> active);
   void to_compact(std::span<const double> local, std::vector<double>& compact) const;
   void from_compact(const std::vector<double>& compact, std::span<double> local) const;
   void sum_over_ranks(double* values, int count) const;
