@@ -20,13 +20,13 @@ struct CollisionCase {
   auto operator<=>(const CollisionCase&) const = default;
 };
 
-/// Energies of every step: kinetic of the points' velocities at its start, strain and dissipation of the stress of its
-/// forces. The work of external forces is zero.
+/// Energies of every step: kinetic of the points' velocities at its start, strain and dissipation of the
+/// stress of its forces. The work of external forces is zero.
 struct CollisionRun {
   double initial = 0.0;  ///< W0, J: kinetic energy of the points at the start
   std::vector<double> time, kinetic, strain, dissipation;
   std::vector<double> grid_kinetic;  ///< v^T M v / 2 of the start-of-step nodal velocity, J
-  std::string failure;  ///< why it ended early; empty if complete
+  std::string failure;               ///< why it ended early; empty if complete
 
   /// Mean over the steps of |kinetic + strain - W0| / W0; infinite if the run did not complete.
   double mean_error(bool of_grid = false) const;
