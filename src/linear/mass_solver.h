@@ -91,6 +91,7 @@ class MassSolver {
   // Functions with entries, numbered without gaps ("compact"): a body fills a small part of its grid.
   std::int64_t pattern_id_ = 0;
   std::vector<int> functions_;  // compact -> local
+  std::vector<char> listed_;    // local: whether it is in the compact list
   std::vector<int> starts_;     // rows of the compact matrix
   std::vector<int>
       compact_columns_;          // its columns; its values are those of the block matrix, in the same order
