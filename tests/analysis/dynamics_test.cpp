@@ -20,12 +20,7 @@ ModelOptions bar(int n, bool gimp, const AnyLaw& law) {
 void start(Model<2>& model, double size = amplitude) {
   for (auto& body : model.bodies)
     for (std::size_t p = 0; p < body.points.position.size(); ++p)
-<<<<<<< HEAD
-      body.points.velocity[p] =
-          Vec<2>(amplitude * omega * std::sin(0.5 * M_PI * body.points.position[p][0]), 0.0);
-=======
       body.points.velocity[p] = Vec<2>(size * omega * std::sin(0.5 * M_PI * body.points.position[p][0]), 0.0);
->>>>>>> tests
 }
 
 struct Vibration {

@@ -155,7 +155,7 @@ TEST(Order, PutsPointsOfOneCellTogetherAndKeepsFieldsTogether) {
     EXPECT_EQ(points.half_length[p], before.half_length[old]);
     EXPECT_EQ(points.mass[p], before.mass[old]);
     EXPECT_EQ(points.displacement[p][0], static_cast<double>(old));
-    EXPECT_EQ(std::get<MaterialStates<Hencky, 2>>(body.material).old[p].stress[0], old == 5 ? 42.0 : 0.0);
+    EXPECT_EQ((std::get<MaterialStates<Hencky, 2>>(body.material).old[p].stress[0]), old == 5 ? 42.0 : 0.0);
     if (p > 0 && points.cell[p] == points.cell[p - 1]) {
       EXPECT_GT(points.id[p], points.id[p - 1]) << "points of a cell keep their order";
     }

@@ -2,9 +2,8 @@
 
 The outline of the paper's ghost is not printed, so this one is our own: a rounded head, straight sides, a wavy hem, two
 eyes and a mouth (holes). It is 0.4 m wide and 0.4 m high, in [0, 0.4]^2, and its area is 0.10736 m^2, the area that follows
-from the paper's initial energies. Rounded lower corners let two ghosts meet as late as the paper's, 1.5 s after their
-start, and no part is so thin that a cell holds it alone. The depth of the hem is found by bisection. Run it from any folder to write the
-file again: python3 outline.py [--picture ghost.png]
+from the paper's initial energies. Rounded lower corners let two ghosts meet about as late as the paper's, and no part
+is so thin that a cell holds it alone. The depth of the hem is found by bisection. Run it from any folder to write the file again: python3 outline.py [--picture ghost.png]
 """
 
 import sys
