@@ -25,9 +25,9 @@ density = 1000.0
 young_modulus = 2e5
 poisson_ratio = 0.3
 [[boundary]]
-name = "floor"
-normal = "y"
-at = 0.25
+name = "support"
+normal = "{normal}"
+at = {at}
 directions = ["x", "y"]
 [gravity]
 acceleration = [0.0, -10.0]
@@ -56,7 +56,8 @@ def expect_success(process):
 
 def write_case(folder, name="case.toml", **keys):
     path = os.path.join(folder, name)
-    values = {"basis": "linear", "points": 2, "factor": "1.0", "output": "frames = 2"}
+    values = {"basis": "linear", "points": 2, "factor": "1.0", "output": "frames = 2", "normal": "y",
+              "at": 0.25}
     lumped = '"explicit"' in keys["stage"] and "consistent" not in keys["stage"]
     values["ghost"] = "" if lumped else "[stabilisation]\n"
     with open(path, "w", encoding="utf-8") as stream:

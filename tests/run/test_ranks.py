@@ -14,6 +14,7 @@ STAGES = {
     "explicit": 'type = "explicit"\nduration = 0.05\nsteps = 50\nmass = "consistent"',
     "lumped": 'type = "explicit"\nduration = 0.05\nsteps = 50\nvelocity_update = "apic"',
     "quasi-static": 'type = "quasi-static"\nduration = 1.0\nsteps = 5\ntolerance = 1e-9',
+    "clamped on one side": 'type = "quasi-static"\nduration = 1.0\nsteps = 5\ntolerance = 1e-9',
 }
 
 
@@ -25,9 +26,11 @@ def compare(what, one, other):
 def main(program, ranks):
     with tempfile.TemporaryDirectory() as folder:
         for name, stage in STAGES.items():
+            static = "quasi-static" in stage
+            support = {"normal": "x", "at": 0.5} if name.startswith("clamped") else {}  # some ranks hold nothing
             case = write_case(folder, f"{name}.toml", basis="linear" if name == "lumped" else "gimp", stage=stage,
-                              factor="1.0" if name != "quasi-static" else "[[0.0, 0.0], [1.0, 1.0]]",
-                              output=f"frames = 1\ncheckpoint_every = {25 if name != 'quasi-static' else 2}")
+                              factor="[[0.0, 0.0], [1.0, 1.0]]" if static else "1.0",
+                              output=f"frames = 1\ncheckpoint_every = {2 if static else 25}", **support)
             one, many = os.path.join(folder, name + "-1"), os.path.join(folder, name + f"-{ranks}")
             expect_success(wisp(program, "run", case, "--out", one))
             run = wisp(program, "run", case, "--out", many, "--ranks", ranks)
