@@ -22,7 +22,8 @@ void MassSolver::set_matrix(const BlockMatrix& mass, const Halo& halo, int colum
   mass_ = &mass;
   halo_ = halo;
   columns_ = columns;
-  // A rank may own active functions that only the points of its neighbours reach: no entry here, but solved here.
+  // A rank may own active functions that only the points of its neighbours reach: no entry here, but solved
+  // here.
   bool known = pattern_id_ == mass.pattern_id();
   for (std::size_t f = 0; known && f < n; ++f) known = !active[f] || listed_[f];
   if (!known) make_compact(active);

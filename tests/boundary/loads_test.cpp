@@ -155,6 +155,36 @@ void closed_surface_has_no_net_pressure() {
 TEST(Traction, PressureOnAClosedSurfaceHasNoResultant2D) { closed_surface_has_no_net_pressure<2>(); }
 TEST(Traction, PressureOnAClosedSurfaceHasNoResultant3D) { closed_surface_has_no_net_pressure<3>(); }
 
+TEST(Traction, ActsThroughTheNearestActiveCell) {
+  auto s = scene<2>(2);
+  TractionOptions o = side<2>(4);
+  o.traction = {5.0, 1.0};
+  Traction<2> traction(o, s.bodies, *s.space);
+  Mat<2> gradient;
+  gradient << 0.02, 0.1, -0.05, 0.03;
+  // First on the line x = 2, where the active cells end, then beyond it.
+  for (int k = 0; k < 2; ++k) {
+    traction.settle(*s.space, active_cells(*s.space, s.bodies));
+    std::vector<double> force(static_cast<std::size_t>(s.space->n_functions()) * 2, 0.0);
+    traction.add_force(*s.space, 0.0, force);
+    EXPECT_LT((resultant(*s.space, force).force - Vec<2>(5.0, 1.0)).norm(), 1e-13);
+    for (int i = 0; i < s.space->n_functions(); ++i)
+      if (s.space->node_position(i)[0] > 2.0) {
+        EXPECT_EQ(force[static_cast<std::size_t>(2 * i)], 0.0) << "no function without mass carries a load";
+      }
+    // A linear field that the functions without mass do not know is continued.
+    auto u = field<2>(*s.space, gradient, Vec<2>(0.1, 0.0));
+    for (int i = 0; i < s.space->n_functions(); ++i)
+      if (s.space->node_position(i)[0] > 2.0)
+        u[static_cast<std::size_t>(2 * i)] = u[static_cast<std::size_t>(2 * i + 1)] = 0.0;
+    const Vec<2> before = traction.positions()[1];
+    const Mat<2> F = traction.deformation_gradients()[1];
+    traction.move(*s.space, u, 2, 1.0);
+    EXPECT_LT((traction.positions()[1] - before - gradient * before - Vec<2>(0.1, 0.0)).norm(), 1e-12);
+    EXPECT_LT((traction.deformation_gradients()[1] - (Mat<2>::Identity() + gradient) * F).norm(), 1e-12);
+  }
+}
+
 TEST(Traction, WrongDescriptionsAreInputErrors) {
   const auto s = scene<2>(2);
   TractionOptions o = side<2>(3);

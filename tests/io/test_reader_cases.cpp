@@ -120,7 +120,7 @@ TEST(Case, NamesAPointFileThatIsMissing) {
 
 TEST(Case, ReadsTheGoodOne) {
   ASSERT_EQ(complaint(good), "(no error)");
-  const Case c = read_case(CaseSource{"case.toml", ".", good, {}});
+  const Case c = read_case(CaseSource{"good.toml", ".", good, {}});
   EXPECT_EQ(c.title, "two bodies");
   EXPECT_TRUE(std::holds_alternative<GimpOptions>(c.basis));
   ASSERT_EQ(c.bodies.size(), 2u);
@@ -129,7 +129,7 @@ TEST(Case, ReadsTheGoodOne) {
   EXPECT_EQ(std::get<ExplicitOptions>(c.stages[1]).cfl, 0.4);
   EXPECT_DOUBLE_EQ(c.loads[0].factor(0.5), 0.5);
   EXPECT_EQ(c.output.track[0].label, "tip");
-  EXPECT_EQ(default_output_folder(c), std::filesystem::path("results/case"));
+  EXPECT_EQ(default_output_folder(c), std::filesystem::path("results/good"));
   EXPECT_EQ(default_output_folder(read_case(CaseSource{"a/beam/case.toml", "a/beam", good, {}})),
             std::filesystem::path("results/beam"));
   EXPECT_EQ(default_output_folder(read_case(CaseSource{"a/beam/thin.toml", "a/beam", good, {}})),
