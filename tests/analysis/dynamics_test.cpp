@@ -103,7 +103,7 @@ Vibration run_newmark(double damping, int steps_per_period, double periods, bool
   auto o = bar(16, gimp, LinearElastic{rho, E, 0.0});
   if (ghost) o.stabilisation = GhostOptions{};
   Model<2> model(o);
-  start(model, 1e-2 * amplitude);  // points move in their cells, which changes the energy by a part of this
+  start(model, 0.1 * amplitude);  // points move in their cells, which changes the energy by a part of this
   ImplicitDynamicOptions options;
   options.numerical_damping = damping, options.tolerance = 1e-10;
   Implicit<2> run(model, options);
@@ -128,11 +128,17 @@ TEST(Newmark, HasTheFrequencyOfTheTrapezoidalRule) {
 TEST(Newmark, KeepsTheEnergyWithoutAndLosesItWithNumericalDamping) {
   for (const bool gimp : {false, true}) {
     const auto kept = run_newmark(0.0, 40, 2.0, gimp, gimp);
-    for (const double e : kept.energies) ASSERT_NEAR(e / kept.energies.front(), 1.0, 1e-6) << gimp;
+    // The rule keeps the energy of fixed stencils; points that move in their cells change it by a few 1e-6 a
+    // period.
+    for (const double e : kept.energies)
+      ASSERT_NEAR(e / kept.energies.front(), 1.0, gimp ? 1e-4 : 1e-5) << gimp;
     const auto lost = run_newmark(0.1, 20, 3.0, gimp, gimp);
     for (std::size_t k = 1; k < lost.energies.size(); ++k)
       ASSERT_LE(lost.energies[k], lost.energies[k - 1] * (1 + 1e-3));
-    EXPECT_LT(lost.energies.back(), 0.5 * lost.energies.front());
+    // Numerical damping ratio alpha omega dt / 2 (Hughes 1987), so the energy falls by exp(-alpha omega dt
+    // omega t).
+    const double fall = std::exp(-0.1 * (2 * M_PI / 20) * (2 * M_PI * 3.0));
+    EXPECT_NEAR(lost.energies.back() / lost.energies.front(), fall, 0.05) << gimp;
     EXPECT_GT(lost.energies.back(), 0.0);
   }
 }
