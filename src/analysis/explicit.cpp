@@ -64,13 +64,13 @@ double Explicit<dim>::time_step(double end) const {
 }
 
 template <int dim>
-void Explicit<dim>::gather(Gather what) {
+void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   sums_.assign(n * sums_stride<dim>, 0.0);
   const Vec<dim> gravity = model_.gravity(model_.time);
   for (const auto& body : model_.bodies)
     points_to_grid<dim>(*model_.space, body, what, gravity, options_.velocity_update == VelocityUpdate::apic,
-                        sums_);
+                        sums_, followed);
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
@@ -300,9 +300,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
       points(strain);
     }
     const auto timer = model_.timers.start(1);
-    // Domains follow the stretch, so the functions have changed; forces and masses of a step must share
-    // theirs.
-    gather(Gather::both);
+    gather(Gather::both, {velocity_, dt});
   }
   {
     const auto timer = model_.timers.start(3);

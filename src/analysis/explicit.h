@@ -39,7 +39,7 @@ class Explicit {
   void renew_solver();
 
  private:
-  void gather(Gather what);
+  void gather(Gather what, const FollowedMotion& followed = {});
   void assemble_mass();
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
