@@ -142,7 +142,7 @@ template <class T>
 constexpr std::string_view noun() {
   if constexpr (std::is_same_v<T, bool>) return "true or false";
   if constexpr (std::is_integral_v<T>) return "integer";
-  if constexpr (std::is_floating_point_v<T>) return "number";
+  if constexpr (std::is_floating_point_v<T> || std::is_same_v<T, Curve>) return "number";
   if constexpr (is_vector<T>) return "list";
   return "text";
 }
