@@ -255,12 +255,14 @@ void Explicit<dim>::add_work(double dt) {
 
 template <int dim>
 void Explicit<dim>::points(const PointUpdate& update) {
+  points_changed_ = true;
   for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
 }
 
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
   dt_ = dt;
+  points_changed_ = false;
   const StressUpdate scheme = options_.stress_update;
   const bool pic = options_.velocity_update != VelocityUpdate::flip;
   PointUpdate update;
@@ -307,6 +309,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     add_work(dt);
   }
   if (record) record_energy(*record);
+  points_changed_ |= !model_.tractions.empty();
   for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
   update.motion = motion_;
   update.velocity = true;
@@ -336,6 +339,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   model_.time += dt;
   ++model_.step;
+  points_changed_ = false;
 }
 
 template class Explicit<2>;
