@@ -24,10 +24,11 @@ template <int dim>
 using AnyBoundary = std::variant<Conforming<dim>, Wall<dim>>;
 
 template <int dim>
-AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space) {
+AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space,
+                               const std::filesystem::path& folder = {}) {
   if (const auto* conforming = std::get_if<ConformingOptions>(&options))
     return Conforming<dim>(*conforming, space);
-  return Wall<dim>(std::get<WallOptions>(options));
+  return Wall<dim>(std::get<WallOptions>(options), folder);
 }
 
 template <int dim>
