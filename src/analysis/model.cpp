@@ -41,11 +41,13 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
     id += sampler.count();
   }
   keep_owned();
-  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space));
+  for (const auto& o : options.boundaries)
+    boundaries.push_back(make_boundary<dim>(o, *space, options.folder));
   constraints = constraints_of(boundaries, space->n_functions());
   for (const auto& o : options.loads) loads.emplace_back(o, bodies);
   for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
   reactions.assign(boundaries.size(), Vec<dim>::Zero());
+  moments.assign(boundaries.size(), Moment<dim>::Zero());
   settle();
 }
 

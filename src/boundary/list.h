@@ -5,7 +5,8 @@
 //     increment(t, dt), velocity(t, dt)   what the held unknowns do in a step
 //     on_edge(direction, side)            holds a whole edge of the grid
 //     holds(direction)                    its reaction has a component there
-//     reaction, moment                    members, if it finds its reactions itself
+//     begin_step, add_pattern, add_stiffness, add_force, finish    implicit steps, see Wall
+//     reaction, moment, work              members, if it finds its reactions itself
 #pragma once
 #include <string>
 #include <variant>
@@ -24,10 +25,11 @@ template <int dim>
 using AnyBoundary = std::variant<Conforming<dim>, Wall<dim>>;
 
 template <int dim>
-AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space) {
+AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space,
+                               const std::filesystem::path& folder = {}) {
   if (const auto* conforming = std::get_if<ConformingOptions>(&options))
     return Conforming<dim>(*conforming, space);
-  return Wall<dim>(std::get<WallOptions>(options));
+  return Wall<dim>(std::get<WallOptions>(options), folder);
 }
 
 template <int dim>

@@ -227,6 +227,15 @@ class Checks {
     const auto at = [&](std::string_view key) { return place("boundary", i, key); };
     if (!w.displacement.empty() && !w.velocity.empty())
       context_.fail_at(at("velocity"), "give either displacement or velocity");
+    const Block<dim> box = located(context_, place("boundary", i, "shape"),
+                                   [&] { return Wall<dim>(w, context_.file().folder).shape().bounds(); });
+    for (int d = 0; d < dim; ++d)
+      if (!w.motion && !(box.lower[d] <= grid_.upper()[d] && box.upper[d] >= grid_.lower()[d]))
+        context_.fail_at(
+            place("boundary", i, "shape"),
+            fmt::format("wall \"{}\" reaches from {} to {} m, outside of the grid from {} to {} m", w.label,
+                        text<dim>(box.lower), text<dim>(box.upper), text<dim>(grid_.lower()),
+                        text<dim>(grid_.upper())));
     if (w.friction > 0.0 && w.kind != WallKind::roller)
       context_.fail_at(at("friction"), "only for kind = \"roller\"");
   }

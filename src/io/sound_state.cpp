@@ -1,5 +1,7 @@
 #include "io/sound_state.h"
 
+#include "transfer/explicit_transfer.h"
+
 namespace wisp {
 
 template <int dim>
