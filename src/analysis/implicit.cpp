@@ -320,7 +320,7 @@ void Implicit<dim>::finish(std::span<const double> u, double dt) {
   for (auto& r : model_.reactions) r = Session::sum(r);
   points_changed_ = true;
   if (walls_) finish_walls(u, dt);
-  for (auto& traction : model_.tractions) traction.move(space, u, dim, 1.0);
+  model_.move_loads(u, dim, 1.0);
   if (newmark_) update_velocities(u, dt);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) commit(stencils_[b], model_.bodies[b], u);
   model_.time += dt;

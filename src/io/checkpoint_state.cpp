@@ -58,8 +58,8 @@ std::string field_name(std::size_t body, std::string_view field) {
 std::string wall_name(std::size_t boundary, const char* field) {
   return fmt::format("wall {} {}", boundary, field);
 }
-std::string traction_name(std::size_t traction, const char* field) {
-  return fmt::format("traction {} {}", traction, field);
+std::string load_name(std::size_t load, std::string_view field) {
+  return fmt::format("load {} {}", load, field);
 }
 
 /// Points of one part, behind those that are there already.
@@ -116,16 +116,20 @@ void restore_walls(const Checkpoint& checkpoint, Model<dim>& model) {
 /// What all ranks have alike.
 template <int dim>
 void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
-  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
-    auto& traction = model.tractions[k];
-    const auto size = static_cast<std::size_t>(traction.size());
-    traction.positions().clear(), traction.deformation_gradients().clear();
-    append(checkpoint, traction_name(k, "position"), traction.positions());
-    append(checkpoint, traction_name(k, "deformation_gradient"), traction.deformation_gradients());
-    if (traction.positions().size() != size || traction.deformation_gradients().size() != size)
-      input_error("checkpoint: traction '{}' has {} surface points, expected {}", traction.name(),
-                  traction.positions().size(), size);
-  }
+  for (std::size_t k = 0; k < model.loads.size(); ++k)
+    std::visit(
+        [&](auto& load) {
+          const auto read = [&](std::string_view field, auto& array) {
+            const std::size_t size = array.size();
+            array.clear();
+            append(checkpoint, load_name(k, field), array);
+            if (array.size() != size)
+              input_error("checkpoint: load '{}' has {} marked points, expected {}", load.name(),
+                          array.size(), size);
+          };
+          if constexpr (requires { load.for_each_field(read); }) load.for_each_field(read);
+        },
+        model.loads[k]);
   model.reactions.clear();
   append(checkpoint, "reactions", model.reactions);
   if (model.reactions.size() != model.boundaries.size())
@@ -152,10 +156,15 @@ void store(Model<dim>& model, Checkpoint& checkpoint) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     model.bodies[b].for_each_field(
         [&](std::string_view name, const auto& field) { set(checkpoint, field_name(b, name), field); });
-  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
-    set(checkpoint, traction_name(k, "position"), model.tractions[k].positions());
-    set(checkpoint, traction_name(k, "deformation_gradient"), model.tractions[k].deformation_gradients());
-  }
+  for (std::size_t k = 0; k < model.loads.size(); ++k)
+    std::visit(
+        [&](auto& load) {
+          const auto write = [&](std::string_view field, const auto& array) {
+            set(checkpoint, load_name(k, field), array);
+          };
+          if constexpr (requires { load.for_each_field(write); }) load.for_each_field(write);
+        },
+        model.loads[k]);
   set(checkpoint, "reactions", model.reactions);
   set(checkpoint, "moments", model.moments);
   store_walls(model, checkpoint);

@@ -1,5 +1,6 @@
 #include "io/sound_state.h"
 
+#include "parallel/session.h"
 #include "transfer/explicit_transfer.h"
 
 namespace wisp {
