@@ -112,18 +112,19 @@ std::int64_t Model<dim>::n_points() const {
 template <int dim>
 void Model<dim>::settle() {
   Eigen::Matrix<int, 2, 1> found(0, 0);
-  std::vector<Location> locations;
+  disorder_.clear();
   for (auto& body : bodies) {
-    locations.push_back(locate(body.points, space->grid(), space->window()));
-    found += Eigen::Matrix<int, 2, 1>(locations.back().outside, locations.back().elsewhere);
+    const Location location = locate(body.points, space->grid(), space->window());
+    disorder_.push_back(location.disorder);
+    found += Eigen::Matrix<int, 2, 1>(location.outside, location.elsewhere);
   }
   if (Session::size() > 1) found = Session::sum(found);
   if (found[0] > 0) remove_outside(static_cast<std::size_t>(found[0]));
   if (found[1] > 0) migrate();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bool moved = found[0] > 0 || found[1] > 0;
-    if (moved || locations[b].disorder > tolerated_disorder * bodies[b].points.size())
-      reorder(bodies[b], space->window().n_cells());
+    if (moved || disorder_[b] > tolerated_disorder * bodies[b].points.size())
+      reorder(bodies[b], space->window().n_cells()), ++reorderings;
   }
   if (space->domains()) choose_width();
   std::optional<ActiveCells> active;

@@ -49,6 +49,7 @@ struct Model {
 
   double time = 0.0;                 ///< s
   std::int64_t step = 0;             ///< finished steps, over all stages
+  std::int64_t reorderings = 0;      ///< times the points of a body were put in order, this rank
   std::int64_t removed = 0;          ///< points removed because they left the grid, all ranks
   double external_work = 0.0;        ///< J, of body forces, loads and prescribed motion, all ranks
   std::vector<Vec<dim>> reactions;   ///< N, on the bodies, one a boundary, all ranks, of the last step
@@ -82,6 +83,8 @@ struct Model {
   void migrate();
   void choose_width();
   std::string oversized_domain() const;
+
+  std::vector<int> disorder_;  // of every body; kept, so that steps allocate nothing
 };
 
 }  // namespace wisp
