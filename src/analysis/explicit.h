@@ -3,6 +3,7 @@
 #include "analysis/model.h"
 #include "analysis/options.h"
 #include "analysis/record.h"
+#include "boundary/wall_contact.h"
 #include "linear/mass_solver.h"
 #include "stabilise/ghost.h"
 #include "transfer/explicit_transfer.h"
@@ -48,6 +49,13 @@ class Explicit {
   void record_energy(EnergyRecord& record) const;
   void add_work(double dt);
   void points(const PointUpdate& update);
+  // Walls, explicit_walls.cpp: their hooks in the order of a step.
+  StepMass step_mass();
+  void find_walls();
+  void correct_strain_velocity(bool alone);
+  void correct_acceleration(double dt);
+  void record_walls();
+  void calm_light_functions(PointUpdate& update);
 
   Model<dim>& model_;
   ExplicitOptions options_;
@@ -58,6 +66,7 @@ class Explicit {
       inertia_;
   BlockMatrix mass_{1};
   MassSolver solver_;
+  WallContact<dim> walls_;
 };
 
 }  // namespace wisp
