@@ -148,7 +148,11 @@ void WallContact<dim>::touch(const Body<dim>& body, PointOf which, double t) {
       d.closest = wall.motion().position(d.closest, t);
       d.normal = (wall.motion().rotation(t) * d.normal).eval();
     }
-    const double allowed = std::min(half, initial), missing = allowed - d.distance;
+    // The distance follows the stretch of the fibre that now points to the wall: else a body that is squeezed
+    // and released would be pushed out by every squeeze and fall back after it, and sink into itself.
+    const double stretch = 1.0 / (body.points.deformation_gradient[p].inverse() * d.normal).norm();
+    const double allowed = std::min(half, initial) * (std::isfinite(stretch) ? stretch : 1.0),
+                 missing = allowed - d.distance;
     const int row = row_at(static_cast<int>(w), d.closest, d.normal);
     if (row >= 0) gap_[at(row)] = std::min(gap_[at(row)], -missing);
     const bool kept = !wall.unilateral() && wall.options().kind != WallKind::prescribed && initial <= half;

@@ -16,7 +16,8 @@ namespace {
 /// A body of equal points, by way of a file like any user's.
 BodyOptions points_body(const std::vector<Vec<2>>& points, double volume, const AnyLaw& law) {
   static int count = 0;
-  const auto file = std::filesystem::temp_directory_path() / fmt::format("wisp-points-{}-{}.csv", ::getpid(), count++);
+  const auto file =
+      std::filesystem::temp_directory_path() / fmt::format("wisp-points-{}-{}.csv", ::getpid(), count++);
   {
     std::ofstream out(file);
     out << "x,y,volume\n";
@@ -63,32 +64,43 @@ double time_step(double young_modulus, double share) {
   return share * cell / std::sqrt(soft(young_modulus).p_wave_modulus() / density);
 }
 
-Scene block(const Variant& variant, double degrees, double width, double height, double young_modulus, int rows,
-            double gap) {
+Scene block(const Variant& variant, double degrees, double width, double height, double young_modulus,
+            int rows, double gap) {
   Scene scene = frame(variant, degrees, std::max(width, height));
   const double s = cell / rows;
   const int nx = static_cast<int>(std::lround(width / s)), ny = static_cast<int>(std::lround(height / s));
   std::vector<Vec<2>> points;
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
-      points.push_back(scene.foot + (i + 0.5 - 0.5 * nx) * s * scene.along + (gap + (j + 0.5) * s) * scene.up);
+      points.push_back(scene.foot + (i + 0.5 - 0.5 * nx) * s * scene.along +
+                       (gap + (j + 0.5) * s) * scene.up);
   scene.options.bodies = {points_body(points, s * s, soft(young_modulus))};
   return scene;
 }
 
 Scene disc(const Variant& variant, double degrees, double radius, double young_modulus) {
-  Scene scene = frame(variant, degrees, 4.0 * radius);
-  const double s = 0.5 * cell;
-  const int n = static_cast<int>(std::ceil(radius / s)) + 1;
+  Scene scene = frame(variant, degrees, 2.5 * radius);
+  // Rings, so that the surface is as round as the points allow: a lattice would stand on its flat sides.
+  const int rings = static_cast<int>(std::lround(radius / (0.5 * cell)));
+  const double s = radius / rings;
   const Vec<2> centre = scene.foot + radius * scene.up;
   std::vector<Vec<2>> points;
-  for (int j = -n; j < n; ++j)
-    for (int i = -n; i < n; ++i)
-      if (const Vec<2> r((i + 0.5) * s, (j + 0.5) * s); r.norm() < radius)
-        points.push_back(centre + r[0] * scene.along + r[1] * scene.up);
+  for (int k = 0; k < rings; ++k) {
+    const double r = (k + 0.5) * s;
+    const int n = static_cast<int>(std::lround(2.0 * std::numbers::pi * r / s));
+    for (int i = 0; i < n; ++i) {
+      const double a = 2.0 * std::numbers::pi * (i + 0.5 * (k % 2)) / n;
+      points.push_back(centre + r * std::cos(a) * scene.along + r * std::sin(a) * scene.up);
+    }
+  }
   // The points share the area of the disc.
   const double volume = std::numbers::pi * radius * radius / static_cast<double>(points.size());
-  scene.options.bodies = {points_body(points, volume, soft(young_modulus))};
+  // It turns far: small strains would take that for strain.
+  const LinearElastic law = soft(young_modulus);
+  Hencky finite;
+  finite.density = law.density, finite.young_modulus = law.young_modulus,
+  finite.poisson_ratio = law.poisson_ratio;
+  scene.options.bodies = {points_body(points, volume, finite)};
   return scene;
 }
 
