@@ -48,11 +48,13 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
   const auto cells = share_of_cells(grid, bodies);
   space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), domains);
   keep_owned();
-  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space, options.folder));
+  for (const auto& o : options.boundaries)
+    boundaries.push_back(make_boundary<dim>(o, *space, options.folder));
   constraints = constraints_of(boundaries, space->n_functions());
   for (const auto& o : options.loads) loads.emplace_back(o, bodies);
   for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
   reactions.assign(boundaries.size(), Vec<dim>::Zero());
+  moments.assign(boundaries.size(), Moment<dim>::Zero());
   settle();
 }
 

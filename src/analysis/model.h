@@ -50,11 +50,12 @@ struct Model {
   /// files. Forces that make a chosen motion the exact solution come in here.
   std::function<Vec<dim>(const Vec<dim>& start, double t)> body_acceleration;
 
-  double time = 0.0;                ///< s
-  std::int64_t step = 0;            ///< finished steps, over all stages
-  std::int64_t removed = 0;         ///< points removed because they left the grid, all ranks
-  double external_work = 0.0;       ///< J, of body forces, loads and prescribed motion, all ranks
-  std::vector<Vec<dim>> reactions;  ///< N, on the bodies, one a boundary, all ranks, of the last step
+  double time = 0.0;                 ///< s
+  std::int64_t step = 0;             ///< finished steps, over all stages
+  std::int64_t removed = 0;          ///< points removed because they left the grid, all ranks
+  double external_work = 0.0;        ///< J, of body forces, loads and prescribed motion, all ranks
+  std::vector<Vec<dim>> reactions;   ///< N, on the bodies, one a boundary, all ranks, of the last step
+  std::vector<Moment<dim>> moments;  ///< of the reactions of walls, about Wall::motion().centre(t), likewise
   Timers timers;
 
   Vec<dim> gravity(double t) const;

@@ -5,7 +5,8 @@
 //     increment(t, dt), velocity(t, dt)   what the held unknowns do in a step
 //     on_edge(direction, side)            holds a whole edge of the grid
 //     holds(direction)                    its reaction has a component there
-//     reaction, moment                    members, if it finds its reactions itself
+//     begin_step, add_pattern, add_stiffness, add_force, finish    implicit steps, see Wall
+//     reaction, moment, work              members, if it finds its reactions itself
 #pragma once
 #include <string>
 #include <variant>

@@ -55,6 +55,9 @@ void append(const Checkpoint& checkpoint, const std::string& name, std::vector<T
 std::string field_name(std::size_t body, std::string_view field) {
   return fmt::format("body {} {}", body, field);
 }
+std::string wall_name(std::size_t boundary, const char* field) {
+  return fmt::format("wall {} {}", boundary, field);
+}
 std::string traction_name(std::size_t traction, const char* field) {
   return fmt::format("traction {} {}", traction, field);
 }
@@ -83,6 +86,33 @@ void clear_points(Model<dim>& model) {
   }
 }
 
+template <int dim>
+void store_walls(const Model<dim>& model, Checkpoint& checkpoint) {
+  for_each<Wall, dim>(model.boundaries, [&](const Wall<dim>& wall, std::size_t k) {
+    std::vector<Vec<dim>> rest, traction, gap;
+    for (const auto& s : wall.states())
+      rest.push_back(s.rest), traction.push_back(s.traction), gap.push_back(s.gap);
+    set(checkpoint, wall_name(k, "rest"), rest);
+    set(checkpoint, wall_name(k, "traction"), traction);
+    set(checkpoint, wall_name(k, "gap"), gap);
+  });
+}
+
+template <int dim>
+void restore_walls(const Checkpoint& checkpoint, Model<dim>& model) {
+  for_each<Wall, dim>(model.boundaries, [&](Wall<dim>& wall, std::size_t k) {
+    std::vector<Vec<dim>> rest, traction, gap;
+    append(checkpoint, wall_name(k, "rest"), rest);
+    append(checkpoint, wall_name(k, "traction"), traction);
+    append(checkpoint, wall_name(k, "gap"), gap);
+    if (traction.size() != rest.size() || gap.size() != rest.size())
+      input_error("checkpoint: wall '{}' has {} places, {} tractions and {} gaps", wall.name(), rest.size(),
+                  traction.size(), gap.size());
+    wall.states().clear();
+    for (std::size_t q = 0; q < rest.size(); ++q) wall.states().push_back({rest[q], traction[q], gap[q]});
+  });
+}
+
 /// What all ranks have alike.
 template <int dim>
 void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
@@ -101,6 +131,12 @@ void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
   if (model.reactions.size() != model.boundaries.size())
     input_error("checkpoint: reactions of {} boundaries, expected {}", model.reactions.size(),
                 model.boundaries.size());
+  model.moments.clear();
+  append(checkpoint, "moments", model.moments);
+  if (model.moments.size() != model.boundaries.size())
+    input_error("checkpoint: moments of {} boundaries, expected {}", model.moments.size(),
+                model.boundaries.size());
+  restore_walls(checkpoint, model);
   model.step = checkpoint.step;
   model.time = checkpoint.time;
   model.external_work = checkpoint.number("external_work");
@@ -121,6 +157,8 @@ void store(Model<dim>& model, Checkpoint& checkpoint) {
     set(checkpoint, traction_name(k, "deformation_gradient"), model.tractions[k].deformation_gradients());
   }
   set(checkpoint, "reactions", model.reactions);
+  set(checkpoint, "moments", model.moments);
+  store_walls(model, checkpoint);
   checkpoint.set_number("external_work", model.external_work);
   checkpoint.set_integer("removed", model.removed);
   const auto& partition = model.space->partition();

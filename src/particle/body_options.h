@@ -20,6 +20,8 @@ struct Sampling {
   SamplingMethod method = SamplingMethod::cells;
   int points_per_cell = 2;
   std::vector<int> divisions;
+  bool clip = false;
+  std::vector<std::vector<double>> cuts;
 
   static constexpr std::string_view name = "sampling";
   static constexpr std::string_view summary = "How points are laid out in a shape";
@@ -35,7 +37,13 @@ struct Sampling {
                       key("divisions", &Sampling::divisions, "-",
                           "number of points across the bounding box in each direction (divisions)")
                           .at_least(1)
-                          .per_direction()};
+                          .per_direction(),
+                      key("clip", &Sampling::clip, "",
+                          "cut the points' sub-domains at the outline of the shape: volumes and centroids of "
+                          "what is left, the total exact (box, polygon)"),
+                      key("cuts", &Sampling::cuts, "m",
+                          "planes (2D: lines) that cut the sub-domains as well: a point and a normal into "
+                          "the body each, as one list of numbers")};
   }
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "geometry/region.h"
+#include "geometry/clip.h"
 
 namespace wisp {
 
@@ -63,6 +63,57 @@ void fill_cell(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule, c
 }
 
 template <int dim>
+std::vector<HalfSpace<dim>> cuts_of(const BodyOptions& options) {
+  std::vector<HalfSpace<dim>> cuts;
+  for (const auto& row : options.sampling.cuts) {
+    if (row.size() != 2 * dim)
+      input_error("body '{}': cuts needs {} numbers a plane (point, normal), found {}", options.label,
+                  2 * dim, row.size());
+    cuts.push_back({Eigen::Map<const Vec<dim>>(row.data()), Eigen::Map<const Vec<dim>>(row.data() + dim)});
+    if (!(cuts.back().normal.norm() > 0.0))
+      input_error("body '{}': cuts: a normal has no length", options.label);
+  }
+  return cuts;
+}
+
+/// The sub-domains of a cell cut at the shape and at planes (Cortis, Coombs and Augarde 2018, section 4). A
+/// cut one becomes a domain about its centroid with the same spread, no longer than stays in the sub-domain.
+template <int dim>
+void clip_cell_points(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule,
+                      const Region<dim>& shape, const std::vector<HalfSpace<dim>>& cuts, Layout<dim>& out) {
+  const int m = static_cast<int>(rule.w.size());
+  std::array<std::vector<double>, dim> edge;
+  for (int d = 0; d < dim; ++d) {
+    auto& e = edge[static_cast<std::size_t>(d)];
+    e.push_back(lower[d]);
+    for (int k = 0; k < m; ++k)
+      e.push_back(e.back() + (upper[d] - lower[d]) * rule.w[static_cast<std::size_t>(k)]);
+    e.back() = upper[d];
+  }
+  for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), MultiIndex<dim>::Constant(m)},
+              [&](const MultiIndex<dim>& index) {
+                Vec<dim> a, b;
+                for (int d = 0; d < dim; ++d) {
+                  const auto& e = edge[static_cast<std::size_t>(d)];
+                  a[d] = e[static_cast<std::size_t>(index[d])],
+                  b[d] = e[static_cast<std::size_t>(index[d] + 1)];
+                }
+                const double whole = (b - a).prod();
+                const ClippedBox<dim> part = clip_box<dim>(shape, cuts, a, b);
+                if (!(part.volume > 1e-14 * whole)) return;
+                Vec<dim> x = part.centroid;
+                Vec<dim> l = (3.0 * part.variance).cwiseSqrt().cwiseMin(x - a).cwiseMin(b - x);
+                if (part.volume > (1.0 - 1e-12) * whole) {
+                  l = 0.5 * (b - a);
+                  for (int d = 0; d < dim; ++d)
+                    x[d] = 0.5 * (lower[d] + upper[d]) +
+                           0.5 * (upper[d] - lower[d]) * rule.r[static_cast<std::size_t>(index[d])];
+                }
+                out.position.push_back(x), out.half_length.push_back(l), out.volume.push_back(part.volume);
+              });
+}
+
+template <int dim>
 Layout<dim> lay_out(const BodyOptions& options, const StructuredGrid<dim>& grid,
                     const std::filesystem::path& folder) {
   Layout<dim> out;
@@ -76,6 +127,8 @@ Layout<dim> lay_out(const BodyOptions& options, const StructuredGrid<dim>& grid,
     return out;
   }
   const Region<dim> any = region<dim>(options.shape, folder);
+  const bool clip = options.sampling.clip || !options.sampling.cuts.empty();
+  const std::vector<HalfSpace<dim>> cuts = cuts_of<dim>(options);
   std::visit(
       [&](const auto& shape) {
         const auto box = bounds(shape);
@@ -90,6 +143,7 @@ Layout<dim> lay_out(const BodyOptions& options, const StructuredGrid<dim>& grid,
           const Rule rule = even_rule(1);
           for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), n}, [&](const MultiIndex<dim>& i) {
             const Vec<dim> lower = box.lower + step.cwiseProduct(i.template cast<double>());
+            if (clip) return clip_cell_points<dim>(lower, lower + step, rule, any, cuts, out);
             fill_cell<dim>(lower, lower + step, rule, shape, out);
           });
           return;
@@ -102,6 +156,9 @@ Layout<dim> lay_out(const BodyOptions& options, const StructuredGrid<dim>& grid,
           cells.upper[d] = std::min(grid.cells(d), grid.locate(d, box.upper[d]) + 1);
         }
         for_each_in(cells, [&](const MultiIndex<dim>& c) {
+          if (clip)
+            return clip_cell_points<dim>(grid.node(c), grid.node(c + MultiIndex<dim>::Ones()), rule, any,
+                                         cuts, out);
           fill_cell<dim>(grid.node(c), grid.node(c + MultiIndex<dim>::Ones()), rule, shape, out);
         });
       },
