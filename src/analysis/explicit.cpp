@@ -23,6 +23,13 @@ MassSolverOptions mass_solver_options(const SolverOptions& solver) {
 double damped(double share, double force, double velocity) {
   return share * std::abs(force) * (velocity > 0 ? 1.0 : velocity < 0 ? -1.0 : 0.0);
 }
+
+template <int dim>
+std::vector<Wall<dim>> walls_of(const std::vector<AnyBoundary<dim>>& boundaries) {
+  std::vector<Wall<dim>> walls;
+  for_each<Wall>(boundaries, [&](const Wall<dim>& wall, std::size_t) { walls.push_back(wall); });
+  return walls;
+}
 }  // namespace
 
 template <int dim>
@@ -30,7 +37,8 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
     : model_(model),
       options_(options),
       consistent_(options.mass == Mass::consistent),
-      solver_(mass_solver_options(model.options.solver)) {
+      solver_(mass_solver_options(model.options.solver)),
+      walls_(walls_of(model.boundaries), *model.space) {
   if (options.velocity_update == VelocityUpdate::apic)
     for (auto& body : model_.bodies)
       if (body.points.affine.empty())
@@ -38,6 +46,7 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
   for (const char* name : {"1 locate, stencils", "2 mass, momentum, forces to grid", "3 contributions",
                            "4 solve for acceleration", "5-7 grid to points, deformation, stress, move"})
     model_.timers.part(name);
+  if (!walls_.empty()) model_.timers.part("walls");
 }
 
 template <int dim>
@@ -328,6 +337,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     const auto timer = model_.timers.start(0);
     model_.settle();
   }
+  if (!walls_.empty()) find_walls();
   {
     const auto timer = model_.timers.start(1);
     gather(scheme == StressUpdate::usf ? Gather::inertia : Gather::both);
@@ -347,8 +357,10 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   if (scheme == StressUpdate::usf) {
     PointUpdate strain = update;
+    strain_velocity_ = velocity_;
+    if (!walls_.empty()) correct_strain_velocity(true);
     // Mass and forces of a step share their functions, so domains wait for the end of the step.
-    strain.strain = true, strain.strain_velocity = velocity_, strain.domains = false;
+    strain.strain = true, strain.strain_velocity = strain_velocity_, strain.domains = false;
     {
       const auto timer = model_.timers.start(4);
       points(strain);
@@ -358,15 +370,16 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   {
     const auto timer = model_.timers.start(3);
-    if (consistent_) {
-      solve_acceleration(dt);
-      set_motion(dt);
-    } else {
-      advance_lumped(dt);
-    }
+    consistent_ ? solve_acceleration(dt) : advance_lumped(dt);
+  }
+  if (!walls_.empty()) correct_acceleration(dt);
+  {
+    const auto timer = model_.timers.start(3);
+    if (consistent_ || !walls_.empty()) set_motion(dt);
     find_reactions();
     add_work(dt);
   }
+  if (!walls_.empty()) record_walls();
   if (record) record_energy(*record);
   points_changed_ = true;  // what loads mark on the bodies moves first
   model_.move_loads(motion_, motion_stride<dim>, dt);
@@ -386,7 +399,10 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
         strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
       solve_velocity(model_.time + dt, strain_velocity_);
     }
+    if (!walls_.empty()) correct_strain_velocity(false);
     update.velocity = false, update.strain_velocity = strain_velocity_;
+  } else if (scheme == StressUpdate::usl && !walls_.empty() && !model_.space->domains()) {
+    calm_light_functions(update);
   }
   update.move = true;
   update.strain = scheme != StressUpdate::usf;
@@ -395,6 +411,10 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     points(update);
     if (scheme == StressUpdate::usf)
       for (auto& body : model_.bodies) follow_stretch(body);
+  }
+  if (!walls_.empty()) {
+    const auto timer = model_.timers.start(5);
+    walls_.correct_points(model_.bodies);
   }
   model_.time += dt;
   ++model_.step;

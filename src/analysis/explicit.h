@@ -3,6 +3,7 @@
 #include "analysis/model.h"
 #include "analysis/options.h"
 #include "analysis/record.h"
+#include "boundary/wall_contact.h"
 #include "linear/mass_solver.h"
 #include "stabilise/ghost.h"
 #include "transfer/explicit_transfer.h"
@@ -58,6 +59,13 @@ class Explicit {
   void record_energy(EnergyRecord& record) const;
   void add_work(double dt);
   void points(const PointUpdate& update);
+  // Walls, explicit_walls.cpp: their hooks in the order of a step.
+  StepMass step_mass();
+  void find_walls();
+  void correct_strain_velocity(bool alone);
+  void correct_acceleration(double dt);
+  void record_walls();
+  void calm_light_functions(PointUpdate& update);
 
   Model<dim>& model_;
   ExplicitOptions options_;
@@ -70,6 +78,7 @@ class Explicit {
   BlockMatrix mass_{1};
   MassSolver solver_;
   std::int64_t solves_ = 0, iterations_ = 0;
+  WallContact<dim> walls_;
 };
 
 }  // namespace wisp

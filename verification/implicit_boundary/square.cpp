@@ -17,18 +17,21 @@ Mat<2> turn(double degrees) {
 }
 
 Vec<2> placed(const SquareCase& square, const Vec<2>& own) {
-  const Vec<2> centre = Vec<2>::Constant(0.5 * side);
-  return centre + turn(square.angle) * (own - centre);
+  return square.pivot + turn(square.angle) * (own - square.pivot);
 }
 
 ModelOptions square_options(const SquareCase& square) {
   const double h = square.h;
-  const int margin = static_cast<int>(std::ceil(0.5 * (std::sqrt(2.0) - 1.0) * side / h)) + 2;
-  const int cells = static_cast<int>(std::lround(side / h)) + 2 * margin;
+  const Vec<2> corners[] = {placed(square, {0, 0}), placed(square, {side, 0}), placed(square, {side, side}),
+                            placed(square, {0, side})};
   ModelOptions o;
-  o.grid.lower = {-margin * h, -margin * h};
-  o.grid.upper = {(cells - margin) * h, (cells - margin) * h};
-  o.grid.cells = {cells, cells};
+  for (int d = 0; d < 2; ++d) {
+    double low = corners[0][d], high = low;
+    for (const Vec<2>& x : corners) low = std::min(low, x[d]), high = std::max(high, x[d]);
+    const double first = std::floor(low / h + 1e-9) - 2.0, last = std::ceil(high / h - 1e-9) + 2.0;
+    o.grid.lower.push_back(first * h), o.grid.upper.push_back(last * h);
+    o.grid.cells.push_back(static_cast<int>(std::lround(last - first)));
+  }
   if (square.gimp)
     o.basis = GimpOptions{};
   else
@@ -36,10 +39,7 @@ ModelOptions square_options(const SquareCase& square) {
   BodyOptions body;
   body.label = "square";
   Polygon outline;
-  for (const Vec<2>& own : {Vec<2>(0, 0), Vec<2>(side, 0), Vec<2>(side, side), Vec<2>(0, side)}) {
-    const Vec<2> x = placed(square, own);
-    outline.vertices.push_back({x[0], x[1]});
-  }
+  for (const Vec<2>& x : corners) outline.vertices.push_back({x[0], x[1]});
   body.shape = outline;
   body.sampling.points_per_cell = square.points, body.sampling.clip = true;
   if (square.finite) {

@@ -11,9 +11,10 @@ namespace wisp::implicit_boundary_paper {
 constexpr double side = 100.0, young_modulus = 1000.0, poisson_ratio = 0.3;
 
 struct SquareCase {
-  double angle = 0.0;  ///< degrees, of the square against the grid, about its centre
-  double h = 10.0;     ///< mm
-  int points = 1;      ///< a cell and direction
+  double angle = 0.0;             ///< degrees, of the square against the grid, about `pivot`
+  Vec<2> pivot = Vec<2>::Zero();  ///< mm, a node of the grid
+  double h = 10.0;                ///< mm
+  int points = 1;                 ///< a cell and direction
   WallMode mode = WallMode::consistent;
   std::optional<double> delta{};  ///< in units of h
   bool gimp = false;
