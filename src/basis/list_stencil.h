@@ -14,8 +14,8 @@ struct ListStencil {
   static constexpr int max_functions = n;
   static constexpr std::size_t padded = (n + 7) / 4 * 4;
 
-  int cell;                                                ///< that the point lies in
-  std::array<int, n> function;                             ///< local indices
+  int cell;                     ///< that the point lies in
+  std::array<int, n> function;  ///< local indices
   std::array<double, padded> value;
   std::array<std::array<double, padded>, dim> derivative;  ///< 1/m
 
