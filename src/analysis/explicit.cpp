@@ -80,7 +80,7 @@ void Explicit<dim>::assemble_mass() {
   const ActiveCells cells = active_cells(space, model_.bodies);
   std::vector<GhostFacet> facets;
   const auto& ghost = model_.options.stabilisation;
-  if (ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.conditions));
+  if (ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries));
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);
@@ -101,12 +101,11 @@ template <int dim>
 void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   velocity.resize(n * dim, 0.0);
-  const auto& constraints = model_.constraints;
+  auto& constraints = model_.constraints;
   const auto prescribe = [&] {
+    set_velocities(model_.boundaries, t - dt_, dt_, constraints);
     for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-      if (constraints.fixed[k])
-        velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t - dt_, dt_);
+      if (constraints.fixed[k]) velocity[k] = constraints.prescribed(k);
   };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -132,7 +131,7 @@ void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
 template <int dim>
 void Explicit<dim>::solve_acceleration(double dt) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
-  const auto& constraints = model_.constraints;
+  auto& constraints = model_.constraints;
   acceleration_.resize(n * dim, 0.0);
   right_side_.resize(n * dim);
   for (std::size_t i = 0; i < n; ++i)
@@ -147,11 +146,9 @@ void Explicit<dim>::solve_acceleration(double dt) {
                                            : 0.0);
       right_side_[i * dim + d] = f;
     }
+  if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
   for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-    if (constraints.fixed[k]) {
-      const auto& condition = model_.conditions[static_cast<std::size_t>(constraints.condition[k])];
-      acceleration_[k] = (condition.velocity(model_.time, dt) - velocity_[k]) / dt;
-    }
+    if (constraints.fixed[k]) acceleration_[k] = (constraints.prescribed(k) - velocity_[k]) / dt;
   if (consistent_) {
     const SolveReport report = solver_.solve(right_side_, acceleration_);
     if (!report.solved)
@@ -181,7 +178,7 @@ void Explicit<dim>::set_motion(double dt) {
       motion_[i * motion_stride<dim> + d] = velocity_[i * dim + d] + dt * acceleration_[i * dim + d];
       motion_[i * motion_stride<dim> + dim + d] = acceleration_[i * dim + d];
     }
-  if (model_.conditions.empty()) return;
+  if (!model_.constraints.any) return;
   // R = M a - f at held unknowns.
   if (consistent_) {
     inertia_.resize(n * dim);

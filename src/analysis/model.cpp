@@ -48,11 +48,11 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
   const auto cells = share_of_cells(grid, bodies);
   space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), domains);
   keep_owned();
-  for (const auto& o : options.boundaries) conditions.emplace_back(o, *space);
-  constraints = Constraints<dim>(conditions, space->n_functions());
+  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space));
+  constraints = constraints_of(boundaries, space->n_functions());
   for (const auto& o : options.loads) loads.emplace_back(o, bodies);
   for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
-  reactions.assign(conditions.size(), Vec<dim>::Zero());
+  reactions.assign(boundaries.size(), Vec<dim>::Zero());
   settle();
 }
 
@@ -224,9 +224,11 @@ template <int dim>
 void Model<dim>::make_space(const BoxPartition<dim>& partition) {
   const StructuredGrid<dim> grid = space->grid();
   space = std::make_unique<Space<dim>>(grid, partition, space->domains());
-  conditions.clear();
-  for (const auto& o : options.boundaries) conditions.emplace_back(o, *space);
-  constraints = Constraints<dim>(conditions, space->n_functions());
+  // Walls keep what they carry; conforming conditions find their functions anew.
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    if (const auto* o = std::get_if<ConformingOptions>(&options.boundaries[k]))
+      boundaries[k] = make_boundary<dim>(*o, *space);
+  constraints = constraints_of(boundaries, space->n_functions());
 }
 
 template struct Model<2>;

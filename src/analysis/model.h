@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "basis/space.h"
-#include "boundary/conforming.h"
+#include "boundary/list.h"
 #include "boundary/loads.h"
 #include "core/timers.h"
 #include "linear/solver.h"
@@ -22,7 +22,7 @@ struct ModelOptions {
   StructuredGridOptions grid;
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
-  std::vector<ConformingOptions> boundaries;
+  std::vector<AnyBoundaryOptions> boundaries;
   std::vector<PointLoadOptions> loads;
   std::vector<TractionOptions> tractions;
   std::optional<GravityOptions> gravity;
@@ -41,7 +41,7 @@ struct Model {
   ModelOptions options;
   std::unique_ptr<Space<dim>> space;
   std::vector<Body<dim>> bodies;
-  std::vector<Conforming<dim>> conditions;
+  std::vector<AnyBoundary<dim>> boundaries;
   Constraints<dim> constraints;
   std::vector<PointLoad<dim>> loads;
   std::vector<Traction<dim>> tractions;
@@ -54,7 +54,7 @@ struct Model {
   std::int64_t step = 0;            ///< finished steps, over all stages
   std::int64_t removed = 0;         ///< points removed because they left the grid, all ranks
   double external_work = 0.0;       ///< J, of body forces, loads and prescribed motion, all ranks
-  std::vector<Vec<dim>> reactions;  ///< N, one a condition, all ranks, of the last step
+  std::vector<Vec<dim>> reactions;  ///< N, on the bodies, one a boundary, all ranks, of the last step
   Timers timers;
 
   Vec<dim> gravity(double t) const;

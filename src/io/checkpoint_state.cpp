@@ -98,9 +98,9 @@ void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
   }
   model.reactions.clear();
   append(checkpoint, "reactions", model.reactions);
-  if (model.reactions.size() != model.conditions.size())
-    input_error("checkpoint: reactions of {} conditions, expected {}", model.reactions.size(),
-                model.conditions.size());
+  if (model.reactions.size() != model.boundaries.size())
+    input_error("checkpoint: reactions of {} boundaries, expected {}", model.reactions.size(),
+                model.boundaries.size());
   model.step = checkpoint.step;
   model.time = checkpoint.time;
   model.external_work = checkpoint.number("external_work");
