@@ -6,8 +6,8 @@
 
 namespace wisp {
 
-/// Cheap to copy, as kernels do. Points come in the order of triangles, so the triangle of the point before is
-/// a good hint. Each copy keeps its own, so one must not be shared between threads.
+/// Cheap to copy, as kernels do. Points come in the order of triangles, so the triangle of the point before
+/// is a good hint. Each copy keeps its own, so one must not be shared between threads.
 template <class Basis_>
 class OnTriangles {
  public:

@@ -46,7 +46,8 @@ struct PowellSabinCubicOptions {
   ControlTriangleRule control_triangles = ControlTriangleRule::hull_edges;
 
   static constexpr std::string_view name = "powell-sabin-cubic";
-  static constexpr std::string_view summary = "Cubic Powell-Sabin splines on triangles: smooth, never negative";
+  static constexpr std::string_view summary =
+      "Cubic Powell-Sabin splines on triangles: smooth, never negative";
   static constexpr std::string_view source = "Groselj and Speleers 2017";
   static constexpr auto keys() {
     return std::tuple{key("control_triangles", &PowellSabinCubicOptions::control_triangles, "",
@@ -54,7 +55,7 @@ struct PowellSabinCubicOptions {
   }
 };
 
-using AnyBasisOptions =
-    std::variant<LinearOptions, GimpOptions, LagrangeQuadraticOptions, PowellSabinOptions, PowellSabinCubicOptions>;
+using AnyBasisOptions = std::variant<LinearOptions, GimpOptions, LagrangeQuadraticOptions, PowellSabinOptions,
+                                     PowellSabinCubicOptions>;
 
 }  // namespace wisp

@@ -30,8 +30,8 @@ class Space {
     if (domains) set_width(3);
   }
   /// A basis on a triangulation. Errors (InputError): one that needs a structured grid, more than one rank.
-  Space(std::shared_ptr<const Triangulation> triangulation, const AnyBasisOptions& options)
-    requires(dim == 2);
+  Space(std::shared_ptr<const Triangulation> triangulation,
+        const AnyBasisOptions& options) requires(dim == 2);
   Space(const Space&) = delete;
   Space& operator=(const Space&) = delete;
 
@@ -52,8 +52,8 @@ class Space {
   int n_keys() const { return structured() ? n_functions() : n_cells(); }
   /// Whether points have domains (GIMP).
   bool domains() const { return domains_; }
-  /// The least extent that a wave crosses in a cell, for time steps, m: the shortest side, or the shortest height
-  /// of a triangle over the degree of its functions.
+  /// The least extent that a wave crosses in a cell, for time steps, m: the shortest side, or the shortest
+  /// height of a triangle over the degree of its functions.
   double shortest_extent() const {
     if (structured()) return grid_->shortest_side();
     return triangulation_->shortest_height() / std::visit([](const auto& b) { return b.degree; }, basis_);
@@ -75,7 +75,8 @@ class Space {
       if (!structured())
         return std::visit(
             [&](const auto& b) -> Vec<2> {
-              if constexpr (is_on_triangles<std::decay_t<decltype(b)>>) return b.basis().control_point(function);
+              if constexpr (is_on_triangles<std::decay_t<decltype(b)>>)
+                return b.basis().control_point(function);
               return Vec<2>::Zero();
             },
             basis_);

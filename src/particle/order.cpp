@@ -57,7 +57,8 @@ Location locate(Particles<2>& points, const Triangulation& triangulation) {
   points.cell.resize(points.position.size(), -1);
   int before = -1;
   for (std::size_t p = 0; p < points.position.size(); ++p) {
-    const int hint = points.cell[p] >= 0 && points.cell[p] < triangulation.n_triangles() ? points.cell[p] : before;
+    const int hint =
+        points.cell[p] >= 0 && points.cell[p] < triangulation.n_triangles() ? points.cell[p] : before;
     const int t = triangulation.locate(points.position[p], hint);
     points.cell[p] = t;
     found.outside += t < 0;
