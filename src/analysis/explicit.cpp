@@ -64,13 +64,13 @@ double Explicit<dim>::time_step(double end) const {
 }
 
 template <int dim>
-void Explicit<dim>::gather(Gather what) {
+void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   sums_.assign(n * sums_stride<dim>, 0.0);
   const Vec<dim> gravity = model_.gravity(model_.time);
   for (const auto& body : model_.bodies)
     points_to_grid<dim>(*model_.space, body, what, gravity, options_.velocity_update == VelocityUpdate::apic,
-                        sums_);
+                        sums_, followed);
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
@@ -256,12 +256,14 @@ void Explicit<dim>::add_work(double dt) {
 
 template <int dim>
 void Explicit<dim>::points(const PointUpdate& update) {
+  points_changed_ = true;
   for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
 }
 
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
   dt_ = dt;
+  points_changed_ = false;
   const StressUpdate scheme = options_.stress_update;
   const bool pic = options_.velocity_update != VelocityUpdate::flip;
   PointUpdate update;
@@ -298,9 +300,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
       points(strain);
     }
     const auto timer = model_.timers.start(1);
-    // Domains follow the stretch, so the functions have changed; forces and masses of a step must share
-    // theirs.
-    gather(Gather::both);
+    gather(Gather::both, {velocity_, dt});
   }
   {
     const auto timer = model_.timers.start(3);
@@ -310,6 +310,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     add_work(dt);
   }
   if (record) record_energy(*record);
+  points_changed_ |= !model_.tractions.empty();
   for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
   update.motion = motion_;
   update.velocity = true;
@@ -339,6 +340,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   model_.time += dt;
   ++model_.step;
+  points_changed_ = false;
 }
 
 template class Explicit<2>;

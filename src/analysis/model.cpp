@@ -24,18 +24,6 @@ MultiIndex<dim> cell_of(const StructuredGrid<dim>& grid, const Vec<dim>& x) {
   return cell;
 }
 
-/// The cells of every size()-th point, so that all ranks together list each point of a replicated list once.
-template <int dim>
-std::vector<MultiIndex<dim>> share_of_cells(const StructuredGrid<dim>& grid,
-                                            const std::vector<Body<dim>>& bodies) {
-  std::vector<MultiIndex<dim>> cells;
-  for (const auto& body : bodies)
-    for (std::size_t p = static_cast<std::size_t>(Session::rank()); p < body.points.position.size();
-         p += static_cast<std::size_t>(Session::size()))
-      cells.push_back(cell_of(grid, body.points.position[p]));
-  return cells;
-}
-
 }  // namespace
 
 template <int dim>
@@ -63,13 +51,18 @@ void Model<dim>::sample_on_grid() {
     if (body.sampling.method == SamplingMethod::random || body.sampling.volumes == PointVolumes::voronoi)
       input_error("body '{}': random points and Voronoi volumes need a triangulation", body.label);
   const StructuredGrid<dim> grid(options.grid);
-  std::int64_t id = 0;
+  std::vector<Sampler<dim>> samplers;
+  std::vector<MultiIndex<dim>> cells;
   for (const auto& body : options.bodies) {
-    bodies.push_back(sample<dim>(body, grid, domains, id, options.folder));
-    id += bodies.back().points.size();
+    const auto& share = samplers.emplace_back(body, grid, options.folder).share();
+    cells.insert(cells.end(), share.begin(), share.end());
   }
-  const auto cells = share_of_cells(grid, bodies);
   space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), domains);
+  std::int64_t id = 0;
+  for (const auto& sampler : samplers) {
+    bodies.push_back(sampler.points(space->window().owned_cells(), domains, id));
+    id += sampler.count();
+  }
 }
 
 template <int dim>
@@ -101,11 +94,13 @@ Location Model<dim>::find_cells(Particles<dim>& points) const {
 template <int dim>
 void Model<dim>::keep_owned() {
   for (auto& body : bodies) {
-    find_cells(body.points);
+    const Location found = find_cells(body.points);
+    const int outside = Session::rank() == 0 ? -1 : 0;  // rank 0 keeps those too
     std::vector<char> gone(body.points.cell.size());
-    for (std::size_t p = 0; p < gone.size(); ++p) gone[p] = body.points.cell[p] < 0;
+    for (std::size_t p = 0; p < gone.size(); ++p)
+      gone[p] = body.points.cell[p] < 0 && body.points.cell[p] != outside;
     remove(body, gone);
-    reorder(body, space->n_cells());
+    if (found.outside == 0 || Session::rank() != 0) reorder(body, space->n_cells());
   }
 }
 
@@ -228,7 +223,15 @@ void Model<dim>::choose_width() {
   }
   if (std::visit([](const auto& basis) { return basis.width; }, space->basis()) != (narrow ? 3 : 5))
     space->set_width(narrow ? 3 : 5);
-  if (wide) return;
+  std::string fault;
+  if (!wide) fault = oversized_domain();
+  Session::raise_together(fault);
+}
+
+/// Words about a point whose domain covers more cells than a stencil has; none if there is no such point.
+template <int dim>
+std::string Model<dim>::oversized_domain() const {
+  const StructuredGrid<dim>& grid = space->grid();
   // The shortest cell is too short for the longest domain; but they may be far apart.
   for (const auto& body : bodies)
     for (std::size_t p = 0; p < body.points.position.size(); ++p)
@@ -236,12 +239,13 @@ void Model<dim>::choose_width() {
         const double x = body.points.position[p][d], l = body.points.half_length[p][d];
         const int c = grid.locate(d, x), first = grid.locate(d, x - l), last = grid.locate(d, x + l);
         if (!(std::isfinite(l)) || last - first > 3 || c - first > 2 || last - c > 2)
-          run_error(
+          return fmt::format(
               "step {} at t = {:.6g} s: the domain of point {} of '{}' has grown to {:.4g} m in direction {} "
               "and covers more "
               "than four cells; use larger cells, smaller domains (more points), or linear functions",
               step, time, body.points.id[p], body.name, 2 * l, "xyz"[d]);
       }
+  return {};
 }
 
 template <int dim>

@@ -41,7 +41,7 @@ struct ModelOptions {
 /// A run on this rank. Plain members: analyses change them, output reads them.
 template <int dim>
 struct Model {
-  /// Samples the bodies, splits the grid by their points and keeps this rank's. Collective. Errors
+  /// Splits the grid by the points of the bodies and samples those of this rank. Collective. Errors
   /// (InputError): also a triangulation on several ranks or in 3D, a basis that the grid does not have.
   explicit Model(const ModelOptions& options);
 
@@ -80,7 +80,8 @@ struct Model {
   bool rebalance();
   /// Splits the grid in the given way. Points stay where they are: see `keep_owned`, `settle`.
   void make_space(const BoxPartition<dim>& partition);
-  /// Of points that every rank has, keeps those of this rank's cells, in cell order.
+  /// Of points that every rank has, keeps those of this rank's cells, in cell order; points outside the grid
+  /// stay on rank 0, for `settle`.
   void keep_owned();
 
  private:
@@ -90,6 +91,7 @@ struct Model {
   void remove_outside(std::size_t outside);
   void migrate();
   void choose_width();
+  std::string oversized_domain() const;
 };
 
 }  // namespace wisp
