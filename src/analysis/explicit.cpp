@@ -310,8 +310,8 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     add_work(dt);
   }
   if (record) record_energy(*record);
-  points_changed_ |= !model_.tractions.empty();
-  for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
+  points_changed_ = true;  // what loads mark on the bodies moves first
+  model_.move_loads(motion_, motion_stride<dim>, dt);
   update.motion = motion_;
   update.velocity = true;
   if (scheme == StressUpdate::musl) {

@@ -33,11 +33,12 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
   else
     sample_on_grid();
   keep_owned();
-  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space));
+  for (const auto& o : options.boundaries)
+    boundaries.push_back(make_boundary<dim>(o, *space, options.folder));
   constraints = constraints_of(boundaries, space->n_functions());
-  for (const auto& o : options.loads) loads.emplace_back(o, bodies);
-  for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
+  for (const auto& o : options.loads) loads.push_back(make_load<dim>(o, bodies, *space));
   reactions.assign(boundaries.size(), Vec<dim>::Zero());
+  moments.assign(boundaries.size(), Moment<dim>::Zero());
   settle();
 }
 
@@ -112,8 +113,8 @@ Vec<dim> Model<dim>::gravity(double t) const {
 
 template <int dim>
 void Model<dim>::add_loads(double t, std::span<double> force) const {
-  for (const auto& load : loads) load.add_force(*space, bodies, t, force);
-  for (const auto& traction : tractions) traction.add_force(*space, t, force);
+  for (const auto& load : loads)
+    std::visit([&](const auto& l) { l.add_force(*space, bodies, t, force); }, load);
   if (!body_acceleration) return;
   std::visit(
       [&](const auto& basis) {
@@ -130,6 +131,17 @@ void Model<dim>::add_loads(double t, std::span<double> force) const {
         }
       },
       space->basis());
+}
+
+template <int dim>
+void Model<dim>::move_loads(std::span<const double> field, int stride, double factor) {
+  for (auto& load : loads)
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires { l.move(*space, field, stride, factor); })
+            l.move(*space, field, stride, factor);
+        },
+        load);
 }
 
 template <int dim>
@@ -156,9 +168,16 @@ void Model<dim>::settle() {
       reorder(bodies[b], space->n_cells());
   }
   if (space->domains()) choose_width();
-  if (tractions.empty()) return;
-  const ActiveCells active = active_cells(*space, bodies);
-  for (auto& traction : tractions) traction.settle(*space, active);
+  std::optional<ActiveCells> active;
+  for (auto& load : loads)
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires(const ActiveCells& cells) { l.settle(*space, cells); }) {
+            if (!active) active = active_cells(*space, bodies);
+            l.settle(*space, *active);
+          }
+        },
+        load);
 }
 
 template <int dim>
@@ -178,8 +197,10 @@ void Model<dim>::remove_outside(std::size_t outside) {
     }
     if (options.leaving() == Leaving::remove) remove(body, gone);
   }
-  removed += static_cast<std::int64_t>(outside);
-  if (options.leaving() == Leaving::remove) return;
+  if (options.leaving() == Leaving::remove) {
+    removed += static_cast<std::int64_t>(outside);
+    return;
+  }
   std::string error;
   if (!examples.empty())
     error = fmt::format(

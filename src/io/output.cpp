@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "boundary/on_body.h"
 #include "grid/structured.h"
 #include "grid/triangulate.h"
 
@@ -208,6 +209,12 @@ HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : ou
       held_[k].push_back(d);
       titles_.push_back(fmt::format("reaction {} {} [N{}]", plain(name(model.boundaries[k])), "xyz"[d], per));
     }
+  for_each<Wall, dim>(model.boundaries, [&](const Wall<dim>& wall, std::size_t k) {
+    if (!output_.reactions) return;
+    walls_.push_back(k);
+    for (const char axis : std::string(dim == 2 ? "z" : "xyz"))
+      titles_.push_back(fmt::format("moment {} {} [{}]", plain(wall.name()), axis, dim == 2 ? "N" : "N m"));
+  });
   for (const auto& track : output_.track)
     for (const auto& [what, unit] : {std::pair{"position", "m"}, {"displacement", "m"}, {"velocity", "m/s"}})
       for (int d = 0; d < dim; ++d)
@@ -231,6 +238,8 @@ std::vector<double> HistoryColumns<dim>::values(const Row<dim>& row, const Model
   }
   for (std::size_t k = 0; k < held_.size(); ++k)
     for (const int d : held_[k]) v.push_back(row.reactions[k][d]);
+  for (const std::size_t k : walls_)
+    v.insert(v.end(), model.moments[k].data(), model.moments[k].data() + model.moments[k].size());
   for (const auto& track : row.tracked) v.insert(v.end(), track.data(), track.data() + dim);
   if (newton_) {
     const bool iterated = row.newton && !row.newton->residuals.empty();

@@ -96,7 +96,8 @@ const std::string out =
 std::vector<Variation> variations() {
   const std::string ghost(test::ghost);
   const std::string traction =
-      "[[traction]]\nname = \"cover\"\nbody = \"block\"\ncorner = [1.25, 1.0]\nedges = [[-1.0, 0.0]]\npoints "
+      "[[load]]\ntype = \"traction\"\nname = \"cover\"\nbody = \"block\"\ncorner = [1.25, 1.0]\nedges = "
+      "[[-1.0, 0.0]]\npoints "
       "= "
       "[8]\npressure = [[0.0, 0.0], [0.04, 1e3]]\n";
   const std::string load =

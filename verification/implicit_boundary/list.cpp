@@ -1,0 +1,12 @@
+#include "verification/implicit_boundary/list.h"
+
+namespace wisp {
+
+std::vector<VerificationTable> implicit_boundary_tables() {
+  std::vector<VerificationTable> all;
+  for (auto* list : {contained_block_tables, deep_beam_tables, simple_shear_tables})
+    for (auto& table : list()) all.push_back(std::move(table));
+  return all;
+}
+
+}  // namespace wisp

@@ -1,0 +1,18 @@
+// The tables and figures of Cortis, Coombs and Augarde 2018, imposition of essential boundary conditions in
+// the material point method, and what its consistent form does beyond them. A file beside this one gives
+// those of one example.
+#pragma once
+#include <vector>
+
+#include "app/verification.h"
+
+namespace wisp {
+
+std::vector<VerificationTable> contained_block_tables();  ///< section 5.1: table I, figures 7-13
+std::vector<VerificationTable> deep_beam_tables();        ///< section 5.2: tables II, III, figure 15
+std::vector<VerificationTable> simple_shear_tables();     ///< section 5.3: figure 16
+
+/// All of them, in the paper's order.
+std::vector<VerificationTable> implicit_boundary_tables();
+
+}  // namespace wisp
