@@ -51,7 +51,7 @@ void Explicit<dim>::record_walls() {
   for_each<Wall>(model_.boundaries, [&](Wall<dim>& wall, std::size_t k) {
     const WallReaction<dim>& reaction = walls_.reactions()[w++];
     model_.reactions[k] = wall.reaction = reaction.force;
-    wall.moment = reaction.moment;
+    model_.moments[k] = wall.moment = reaction.moment;
   });
   model_.external_work += walls_.work();
 }

@@ -11,6 +11,7 @@ namespace wisp {
 std::vector<VerificationTable> contained_block_tables();  ///< section 5.1: table I, figures 7-13
 std::vector<VerificationTable> deep_beam_tables();        ///< section 5.2: tables II, III, figure 15
 std::vector<VerificationTable> simple_shear_tables();     ///< section 5.3: figure 16
+std::vector<VerificationTable> explicit_wall_tables();    ///< beyond: walls in explicit dynamics
 
 /// All of them, in the paper's order.
 std::vector<VerificationTable> implicit_boundary_tables();
