@@ -265,7 +265,7 @@ void bench_consistent(int points, bool gimp) {
 }
 
 /// Powell-Sabin splines against linear functions, on the same triangles and points, and on the cells of a
-/// structured grid with as many points.
+/// structured grid with as many points; in turns, best of several bursts.
 void bench_splines(int points) {
   const int blocks = std::max(4, static_cast<int>(std::lround(std::sqrt(points) / 4)));
   const auto on_triangles = [&](const AnyBasisOptions& basis) {
@@ -274,17 +274,21 @@ void bench_splines(int points) {
     grid.lower = o.grid.lower, grid.upper = o.grid.upper, grid.cells = o.grid.cells;
     o.triangulation = grid;
     o.basis = basis;
-    return measure<2>(o, Mass::lumped, explicit_steps, 4);
+    return o;
   };
-  const Measured linear = on_triangles(LinearOptions{}), spline = on_triangles(PowellSabinOptions{});
-  const Measured cells = measure<2>(block<2>(linear.points, false), Mass::lumped, explicit_steps, 4);
-  const double ratio = linear.speed() / spline.speed();
+  ExplicitRun<2> linear(on_triangles(LinearOptions{}), Mass::lumped);
+  ExplicitRun<2> spline(on_triangles(PowellSabinOptions{}), Mass::lumped);
+  ExplicitRun<2> cells(block<2>(linear.points(), false), Mass::lumped);
+  for (int k = 0; k < linear.bursts; ++k)
+    for (auto* run : {&linear, &spline, &cells}) run->run(run->burst);
+  const auto cost = [](const ExplicitRun<2>& run) { return run.seconds() / run.points(); };
+  const double ratio = cost(spline) / cost(linear);
   print(
       "  {:>9} points  {:>6.2f} M point-steps/s, {:.2f} times the linear step on triangles, target <= "
       "{:.0f}: {}   "
       "({:.2f} times that on cells, {:.2f} for linear on triangles; {} ns a point in steps 1 to 5-7)\n",
-      spline.points, 1e-6 * spline.speed(), ratio, target_splines, verdict(ratio <= target_splines),
-      cells.speed() / spline.speed(), cells.speed() / linear.speed(), spline.parts);
+      spline.points(), 1e-6 / cost(spline), ratio, target_splines, verdict(ratio <= target_splines),
+      cost(spline) / cost(cells), cost(linear) / cost(cells), spline.parts());
 }
 
 }  // namespace
