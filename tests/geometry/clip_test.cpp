@@ -91,6 +91,18 @@ TEST(Clip, ATurnedCubeIsWholeOverAGrid) {
   EXPECT_LT(sum.first.norm(), 1e-13);
 }
 
+TEST(Clip, APlaneOnAFaceOfTheBoxChangesNothingOrLeavesNothing) {
+  const Region<3> shape = Block<3>{{0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}};
+  for (int d = 0; d < 3; ++d)
+    for (const double sign : {1.0, -1.0}) {
+      const HalfSpace<3> half{Point<3>::Ones(), sign * Point<3>::Unit(d)};
+      Point<3> low = Point<3>::Zero(), high = Point<3>::Ones();
+      EXPECT_NEAR(clip_box<3>(shape, {half}, low, high).volume, sign > 0 ? 0.0 : 1.0, 1e-15);
+      low[d] += 1.0, high[d] += 1.0;
+      EXPECT_NEAR(clip_box<3>(shape, {half}, low, high).volume, sign > 0 ? 1.0 : 0.0, 1e-15);
+    }
+}
+
 TEST(Clip, BallsAreRefused) {
   const Region<2> disc = Sphere<2>{{0.0, 0.0}, 1.0};
   EXPECT_THROW((clip_box<2>(disc, {}, {0.0, 0.0}, {1.0, 1.0})), InputError);
