@@ -142,11 +142,34 @@ std::string grid_json(const StructuredGridOptions& options) {
   return text;
 }
 
+/// The pieces of walls that stand still, each a line of places.
+template <int dim>
+std::string walls_json(const Case& c) {
+  const StructuredGrid<dim> grid(c.grid);
+  std::string text;
+  for (const auto& boundary : c.boundaries) {
+    const auto* o = std::get_if<WallOptions>(&boundary);
+    if (!o || o->motion) continue;
+    const Wall<dim> wall(*o, c.file.folder);
+    for (const auto& piece : wall.shape().pieces(grid.shortest_side(), {grid.lower(), grid.upper()})) {
+      text += text.empty() ? "[" : ",\n  [";
+      for (std::size_t k = 0; k < dim; ++k) {
+        text += k > 0 ? ", [" : "[";
+        for (int d = 0; d < dim; ++d) text += fmt::format("{}{}", d > 0 ? ", " : "", piece.vertex[k][d]);
+        text += "]";
+      }
+      text += "]";
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string scene_json(const Case& c) {
-  return fmt::format("{{\"title\": {},\n \"grid\": {{\"coordinates\": [{}]}}}}\n", json_text(c.title),
-                     c.dimension == 2 ? grid_json<2>(c.grid) : grid_json<3>(c.grid));
+  return fmt::format("{{\"title\": {},\n \"grid\": {{\"coordinates\": [{}]}},\n \"walls\": [{}]}}\n",
+                     json_text(c.title), c.dimension == 2 ? grid_json<2>(c.grid) : grid_json<3>(c.grid),
+                     c.dimension == 2 ? walls_json<2>(c) : walls_json<3>(c));
 }
 
 template <int dim>
