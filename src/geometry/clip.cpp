@@ -106,10 +106,8 @@ void cut_polyhedron(std::vector<Corners<3>>& faces, const HalfSpace<3>& half) {
   Corners<3> on;
   bool changed = false;
   for (auto& face : faces) {
-    const std::size_t before = on.size();
-    Corners<3> kept = cut_corners<3>(face, half, &on);
-    changed |= kept.size() != face.size() || on.size() > before;
-    face = std::move(kept);
+    for (const auto& x : face) changed |= (x - half.point).dot(half.normal) < 0.0;
+    face = cut_corners<3>(face, half, &on);
   }
   faces.erase(std::remove_if(faces.begin(), faces.end(), [](const auto& f) { return f.size() < 3; }),
               faces.end());

@@ -161,10 +161,43 @@ std::string grid_json(const Case& c) {
   return c.dimension == 2 ? lines_json<2>(lines) : lines_json<3>(lines);
 }
 
+/// The pieces of walls that stand still, each a line of places.
+template <int dim>
+std::string walls_json(const Case& c) {
+  double length;
+  Block<dim> box;
+  if (const auto* lines = std::get_if<StructuredGridOptions>(&c.grid)) {
+    const StructuredGrid<dim> grid(*lines);
+    length = grid.shortest_side(), box = {grid.lower(), grid.upper()};
+  } else if constexpr (dim == 2) {
+    const Triangulation mesh = make_triangulation(*triangulation_of(c.grid), c.file.folder);
+    length = mesh.shortest_height(), box = {mesh.lower(), mesh.upper()};
+  } else {
+    return {};
+  }
+  std::string text;
+  for (const auto& boundary : c.boundaries) {
+    const auto* o = std::get_if<WallOptions>(&boundary);
+    if (!o || o->motion) continue;
+    const Wall<dim> wall(*o, c.file.folder);
+    for (const auto& piece : wall.shape().pieces(length, box)) {
+      text += text.empty() ? "[" : ",\n  [";
+      for (std::size_t k = 0; k < dim; ++k) {
+        text += k > 0 ? ", [" : "[";
+        for (int d = 0; d < dim; ++d) text += fmt::format("{}{}", d > 0 ? ", " : "", piece.vertex[k][d]);
+        text += "]";
+      }
+      text += "]";
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string scene_json(const Case& c) {
-  return fmt::format("{{\"title\": {},\n \"grid\": {}}}\n", json_text(c.title), grid_json(c));
+  return fmt::format("{{\"title\": {},\n \"grid\": {},\n \"walls\": [{}]}}\n", json_text(c.title),
+                     grid_json(c), c.dimension == 2 ? walls_json<2>(c) : walls_json<3>(c));
 }
 
 VtuCells grid_cells(const Triangulation& mesh) {
