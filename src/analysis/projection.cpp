@@ -56,7 +56,8 @@ void on_sub_triangles(const Basis& basis, int points, F&& f) {
         const double area = 0.5 * std::abs((r - v)[0] * (z - v)[1] - (r - v)[1] * (z - v)[0]);
         for (std::size_t q = 0; q < rule.place.size(); ++q) {
           const auto& b = rule.place[q];
-          f(basis.tabulate_at(t, {k, side, b}), Vec<2>(b[0] * v + b[1] * r + b[2] * z), area * rule.weight[q]);
+          f(basis.tabulate_at(t, {k, side, b}), Vec<2>(b[0] * v + b[1] * r + b[2] * z),
+            area * rule.weight[q]);
         }
       }
 }
@@ -80,7 +81,8 @@ class Substitution {
         condition_(static_cast<std::size_t>(n), -1),
         conditions_(conditions) {
     for (const auto& f : conditions.fixed)
-      constant_[static_cast<std::size_t>(f.function)] = f.value, fixed_[static_cast<std::size_t>(f.function)] = 1;
+      constant_[static_cast<std::size_t>(f.function)] = f.value,
+      fixed_[static_cast<std::size_t>(f.function)] = 1;
     for (std::size_t c = 0; c < conditions.vertices.size(); ++c)
       for (std::size_t q = 0; q < 3; ++q) {
         const auto i = static_cast<std::size_t>(conditions.vertices[c].function[q]);
@@ -96,7 +98,8 @@ class Substitution {
   void apply(std::span<const int> functions, std::vector<double>& m, std::vector<double>& b) const {
     const std::size_t n = functions.size();
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) b[i] -= m[i * n + j] * constant_[static_cast<std::size_t>(functions[j])];
+      for (std::size_t j = 0; j < n; ++j)
+        b[i] -= m[i * n + j] * constant_[static_cast<std::size_t>(functions[j])];
     for (std::size_t i = 0; i < n; ++i) {
       const int c = condition_[static_cast<std::size_t>(functions[i])];
       if (c < 0 || conditions_.vertices[static_cast<std::size_t>(c)].function[0] != functions[i]) continue;

@@ -62,8 +62,8 @@ void add_line(const Spline& basis, int vertex, const AtVertex& at, bool by_contr
 }  // namespace
 
 template <class Spline>
-SplineConditions spline_conditions(const Spline& basis, std::span<const int> edges, const BoundaryField& field,
-                                   bool by_control_points) {
+SplineConditions spline_conditions(const Spline& basis, std::span<const int> edges,
+                                   const BoundaryField& field, bool by_control_points) {
   const auto& mesh = basis.triangulation();
   std::map<int, AtVertex> vertices;
   SplineConditions conditions;
@@ -105,7 +105,7 @@ SplineConditions spline_conditions(const Spline& basis, std::span<const int> edg
 
 template SplineConditions spline_conditions(const PowellSabinQuadratic&, std::span<const int>,
                                             const BoundaryField&, bool);
-template SplineConditions spline_conditions(const PowellSabinCubic&, std::span<const int>, const BoundaryField&,
-                                            bool);
+template SplineConditions spline_conditions(const PowellSabinCubic&, std::span<const int>,
+                                            const BoundaryField&, bool);
 
 }  // namespace wisp

@@ -20,8 +20,8 @@ struct FixedCoefficient {
   double value = 0.0;
 };
 
-/// Two equations among the three functions of a vertex, solved: coefficient q is constant[q] + y slope[q] with
-/// the one free number y. `slope` has length 1.
+/// Two equations among the three functions of a vertex, solved: coefficient q is constant[q] + y slope[q]
+/// with the one free number y. `slope` has length 1.
 struct VertexCondition {
   std::array<int, 3> function{};
   std::array<double, 3> constant{};
@@ -39,13 +39,14 @@ struct SplineConditions {
 ///
 /// Where a side of the control triangle lies on the edge, the two functions on it take the condition and the
 /// third has no part in it (thesis, section 3.5.4): two coefficients are fixed. Elsewhere, or with
-/// `by_control_points` false, one number of the three stays free. At a corner between two of the edges, convex
-/// or not, sharp or blunt, value and gradient are known from both, so all three coefficients are fixed.
+/// `by_control_points` false, one number of the three stays free. At a corner between two of the edges,
+/// convex or not, sharp or blunt, value and gradient are known from both, so all three coefficients are
+/// fixed.
 ///
 /// Errors (InputError): an edge that is not on the boundary.
 template <class Spline>
-SplineConditions spline_conditions(const Spline& basis, std::span<const int> edges, const BoundaryField& field,
-                                   bool by_control_points = true);
+SplineConditions spline_conditions(const Spline& basis, std::span<const int> edges,
+                                   const BoundaryField& field, bool by_control_points = true);
 
 extern template SplineConditions spline_conditions(const PowellSabinQuadratic&, std::span<const int>,
                                                    const BoundaryField&, bool);

@@ -14,10 +14,11 @@ using namespace basis_test;
 
 template <class Basis>
 struct BSplineContract : testing::Test {
-  static constexpr int dim = Basis::dimension;
+  static constexpr int dimension = Basis::dimension;
   /// Calls f(basis, x) for points of grids, simple knots and repeated ones.
   template <class F>
   void for_each_sample(F&& f) {
+    constexpr int dim = dimension;
     for (const auto& grid : {equal_grid<dim>(), unequal_grid<dim>()})
       for (const bool repeated : {false, true}) {
         std::array<std::vector<int>, dim> multiplicity;
@@ -28,7 +29,8 @@ struct BSplineContract : testing::Test {
   }
 };
 
-using Bases = testing::Types<BSpline<2, 1>, BSpline<2, 2>, BSpline<2, 3>, BSpline<2, 4>, BSpline<3, 2>, BSpline<3, 3>>;
+using Bases =
+    testing::Types<BSpline<2, 1>, BSpline<2, 2>, BSpline<2, 3>, BSpline<2, 4>, BSpline<3, 2>, BSpline<3, 3>>;
 TYPED_TEST_SUITE(BSplineContract, Bases);
 
 TYPED_TEST(BSplineContract, SumsToOneAndReproducesLinearFields) {
