@@ -4,6 +4,7 @@
 
 #include "basis/bspline.h"
 #include "basis/lagrange_quadratic.h"
+#include "basis/linear_triangle.h"
 #include "grid/quadrature.h"
 
 namespace wisp {
@@ -235,6 +236,7 @@ using Plane3 = BSpline<2, 3>;
 using Plane4 = BSpline<2, 4>;
 using Space2 = BSpline<3, 2>;
 using Space3 = BSpline<3, 3>;
+WISP_PROJECTION(LinearTriangle)
 WISP_PROJECTION(LagrangeQuadratic)
 WISP_PROJECTION(PowellSabinQuadratic)
 WISP_PROJECTION(PowellSabinCubic)

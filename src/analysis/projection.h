@@ -13,7 +13,7 @@ template <int dim>
 using ScalarField = std::function<double(const Vec<dim>&)>;
 
 /// Find u in the space of a basis with integral of (mass u w + stiffness grad u . grad w) = integral of f w
-/// for all w there: the L2 projection of f (thesis, eq. 3.67), or Poisson's problem.
+/// for all w there: the L2 projection of f (de Koster 2018, eq. 3.67), or Poisson's problem.
 struct FieldProblem {
   double mass = 1.0;
   double stiffness = 0.0;
@@ -40,10 +40,13 @@ template <class Basis>
 double field_value(const Basis& basis, const std::vector<double>& coefficients,
                    const Vec<Basis::dimension>& x) {
   double value = 0.0;
-  basis.tabulate(x, Vec<Basis::dimension>::Zero())
-      .for_each([&](int, int i, double phi, const Vec<Basis::dimension>&) {
-        value += phi * coefficients[static_cast<std::size_t>(i)];
-      });
+  const auto add = [&](int, int i, double phi, const Vec<Basis::dimension>&) {
+    value += phi * coefficients[static_cast<std::size_t>(i)];
+  };
+  if constexpr (requires { basis.triangulation(); })
+    basis.tabulate(x, -1).for_each(add);
+  else
+    basis.tabulate(x, Vec<Basis::dimension>::Zero()).for_each(add);
   return value;
 }
 

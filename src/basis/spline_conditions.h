@@ -34,11 +34,11 @@ struct SplineConditions {
 };
 
 /// Conditions that make a spline take a field on boundary edges: its value and its derivative along the edge
-/// at each vertex (thesis, eq. 3.63, 3.64), for cubics a third number a half edge. Between them it follows to
-/// the order of the splines; zero is taken exactly.
+/// at each vertex (de Koster 2018, eq. 3.63, 3.64), for cubics a third number a half edge. Between them it
+/// follows to the order of the splines; zero is taken exactly.
 ///
 /// Where a side of the control triangle lies on the edge, the two functions on it take the condition and the
-/// third has no part in it (thesis, section 3.5.4): two coefficients are fixed. Elsewhere, or with
+/// third has no part in it (de Koster 2018, section 3.5.4): two coefficients are fixed. Elsewhere, or with
 /// `by_control_points` false, one number of the three stays free. At a corner between two of the edges,
 /// convex or not, sharp or blunt, value and gradient are known from both, so all three coefficients are
 /// fixed.

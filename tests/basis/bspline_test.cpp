@@ -1,4 +1,4 @@
-// B-splines: the contract of a basis, and what the thesis shows of them.
+// B-splines: the contract of a basis, and what de Koster 2018 shows of them.
 #include "basis/bspline.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ double derivative_jump(const KnotVector& knots, int cell, double x) {
 }
 
 TEST(KnotVector, RepeatedKnotsLowerTheSmoothness) {
-  // The thesis's figures 3.12 and 3.13: knots 0 0 0 1 2 3 4 (4) 5 5 5.
+  // Figures 3.12 and 3.13 of de Koster 2018: knots 0 0 0 1 2 3 4 (4) 5 5 5.
   const std::vector<double> lines{0, 1, 2, 3, 4, 5};
   const KnotVector simple(2, lines), kinked(2, lines, {1, 1, 1, 2});
   EXPECT_EQ(simple.knots(), (std::vector<double>{0, 0, 0, 1, 2, 3, 4, 5, 5, 5}));
