@@ -60,17 +60,17 @@ double Explicit<dim>::time_step(double end) const {
     run_error(
         "explicit: no body has a wave speed (stiffness or density is zero), so the CFL number gives no time "
         "step; set dt or steps");
-  return std::min(rest, options_.cfl * model_.space->grid().shortest_side() / Session::max(speed));
+  return std::min(rest, options_.cfl * model_.space->shortest_extent() / Session::max(speed));
 }
 
 template <int dim>
-void Explicit<dim>::gather(Gather what) {
+void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   sums_.assign(n * sums_stride<dim>, 0.0);
   const Vec<dim> gravity = model_.gravity(model_.time);
   for (const auto& body : model_.bodies)
     points_to_grid<dim>(*model_.space, body, what, gravity, options_.velocity_update == VelocityUpdate::apic,
-                        sums_);
+                        sums_, followed);
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
@@ -80,14 +80,15 @@ void Explicit<dim>::assemble_mass() {
   const ActiveCells cells = active_cells(space, model_.bodies);
   std::vector<GhostFacet> facets;
   const auto& ghost = model_.options.stabilisation;
-  if (ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.conditions));
+  if (ghost)
+    facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), ghost->elements);
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);
   mass_.end_pattern();
   add_consistent_mass(space, model_.bodies, mass_);
   if (ghost) add_ghost(space, facets, *ghost, GhostMatrix::mass, mass_);
-  std::vector<char> active = active_functions(space, cells);
+  std::vector<char> active = active_functions(space, ghost ? ghost_cells(space, cells, *ghost) : cells);
   for (std::size_t i = 0; i < active.size(); ++i)
     if (!ghost && sums_[i * sums_stride<dim>] <= 0.0) active[i] = 0;
   solver_.set_matrix(
@@ -101,12 +102,11 @@ template <int dim>
 void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   velocity.resize(n * dim, 0.0);
-  const auto& constraints = model_.constraints;
+  auto& constraints = model_.constraints;
   const auto prescribe = [&] {
+    set_velocities(model_.boundaries, t - dt_, dt_, constraints);
     for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-      if (constraints.fixed[k])
-        velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t - dt_, dt_);
+      if (constraints.fixed[k]) velocity[k] = constraints.prescribed(k);
   };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -132,7 +132,7 @@ void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
 template <int dim>
 void Explicit<dim>::solve_acceleration(double dt) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
-  const auto& constraints = model_.constraints;
+  auto& constraints = model_.constraints;
   acceleration_.resize(n * dim, 0.0);
   right_side_.resize(n * dim);
   for (std::size_t i = 0; i < n; ++i)
@@ -147,11 +147,9 @@ void Explicit<dim>::solve_acceleration(double dt) {
                                            : 0.0);
       right_side_[i * dim + d] = f;
     }
+  if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
   for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-    if (constraints.fixed[k]) {
-      const auto& condition = model_.conditions[static_cast<std::size_t>(constraints.condition[k])];
-      acceleration_[k] = (condition.velocity(model_.time, dt) - velocity_[k]) / dt;
-    }
+    if (constraints.fixed[k]) acceleration_[k] = (constraints.prescribed(k) - velocity_[k]) / dt;
   if (consistent_) {
     const SolveReport report = solver_.solve(right_side_, acceleration_);
     if (!report.solved)
@@ -181,7 +179,7 @@ void Explicit<dim>::set_motion(double dt) {
       motion_[i * motion_stride<dim> + d] = velocity_[i * dim + d] + dt * acceleration_[i * dim + d];
       motion_[i * motion_stride<dim> + dim + d] = acceleration_[i * dim + d];
     }
-  if (model_.conditions.empty()) return;
+  if (!model_.constraints.any) return;
   // R = M a - f at held unknowns.
   if (consistent_) {
     inertia_.resize(n * dim);
@@ -258,12 +256,14 @@ void Explicit<dim>::add_work(double dt) {
 
 template <int dim>
 void Explicit<dim>::points(const PointUpdate& update) {
+  points_changed_ = true;
   for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
 }
 
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
   dt_ = dt;
+  points_changed_ = false;
   const StressUpdate scheme = options_.stress_update;
   const bool pic = options_.velocity_update != VelocityUpdate::flip;
   PointUpdate update;
@@ -300,9 +300,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
       points(strain);
     }
     const auto timer = model_.timers.start(1);
-    // Domains follow the stretch, so the functions have changed; forces and masses of a step must share
-    // theirs.
-    gather(Gather::both);
+    gather(Gather::both, {velocity_, dt});
   }
   {
     const auto timer = model_.timers.start(3);
@@ -312,6 +310,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     add_work(dt);
   }
   if (record) record_energy(*record);
+  points_changed_ |= !model_.tractions.empty();
   for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
   update.motion = motion_;
   update.velocity = true;
@@ -341,6 +340,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   model_.time += dt;
   ++model_.step;
+  points_changed_ = false;
 }
 
 template class Explicit<2>;

@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "basis/space.h"
-#include "boundary/conforming.h"
+#include "boundary/list.h"
 #include "boundary/loads.h"
 #include "core/timers.h"
+#include "grid/triangulation_options.h"
 #include "linear/solver.h"
 #include "particle/body.h"
 #include "particle/body_options.h"
+#include "particle/order.h"
 #include "stabilise/ghost_options.h"
 
 namespace wisp {
@@ -20,28 +22,33 @@ namespace wisp {
 /// The parts of a case that do not depend on its stages.
 struct ModelOptions {
   StructuredGridOptions grid;
+  std::optional<AnyTriangulationOptions> triangulation;  ///< instead of the structured grid (2D)
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
-  std::vector<ConformingOptions> boundaries;
+  std::vector<AnyBoundaryOptions> boundaries;
   std::vector<PointLoadOptions> loads;
   std::vector<TractionOptions> tractions;
   std::optional<GravityOptions> gravity;
   std::optional<GhostOptions> stabilisation;
   SolverOptions solver;
   std::filesystem::path folder;  ///< where relative file names start
+
+  Leaving leaving() const {
+    return triangulation ? std::visit([](const auto& t) { return t.leaving; }, *triangulation) : grid.leaving;
+  }
 };
 
 /// A run on this rank. Plain members: analyses change them, output reads them.
 template <int dim>
 struct Model {
-  /// Samples the bodies, splits the grid by their points and keeps this rank's. Collective. Errors:
-  /// InputError.
+  /// Splits the grid by the points of the bodies and samples those of this rank. Collective. Errors
+  /// (InputError): also a triangulation on several ranks or in 3D, a basis that the grid does not have.
   explicit Model(const ModelOptions& options);
 
   ModelOptions options;
   std::unique_ptr<Space<dim>> space;
   std::vector<Body<dim>> bodies;
-  std::vector<Conforming<dim>> conditions;
+  std::vector<AnyBoundary<dim>> boundaries;
   Constraints<dim> constraints;
   std::vector<PointLoad<dim>> loads;
   std::vector<Traction<dim>> tractions;
@@ -54,7 +61,7 @@ struct Model {
   std::int64_t step = 0;            ///< finished steps, over all stages
   std::int64_t removed = 0;         ///< points removed because they left the grid, all ranks
   double external_work = 0.0;       ///< J, of body forces, loads and prescribed motion, all ranks
-  std::vector<Vec<dim>> reactions;  ///< N, one a condition, all ranks, of the last step
+  std::vector<Vec<dim>> reactions;  ///< N, on the bodies, one a boundary, all ranks, of the last step
   Timers timers;
 
   Vec<dim> gravity(double t) const;
@@ -73,13 +80,18 @@ struct Model {
   bool rebalance();
   /// Splits the grid in the given way. Points stay where they are: see `keep_owned`, `settle`.
   void make_space(const BoxPartition<dim>& partition);
-  /// Of points that every rank has, keeps those of this rank's cells, in cell order.
+  /// Of points that every rank has, keeps those of this rank's cells, in cell order; points outside the grid
+  /// stay on rank 0, for `settle`.
   void keep_owned();
 
  private:
+  void sample_on_grid();
+  void sample_on_triangulation();
+  Location find_cells(Particles<dim>& points) const;
   void remove_outside(std::size_t outside);
   void migrate();
   void choose_width();
+  std::string oversized_domain() const;
 };
 
 }  // namespace wisp

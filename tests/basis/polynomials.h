@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "basis/lagrange_quadratic.h"
+#include "basis/linear_triangle.h"
 #include "basis/powell_sabin_cubic.h"
 #include "basis/powell_sabin_quadratic.h"
 
@@ -36,6 +37,10 @@ struct Monomial {
     return sum / terms;
   }
 };
+
+inline double coefficient(const LinearTriangle& basis, const Monomial& f, int i) {
+  return f(basis.control_point(i));
+}
 
 inline double coefficient(const LagrangeQuadratic& basis, const Monomial& f, int i) {
   return f(basis.control_point(i));

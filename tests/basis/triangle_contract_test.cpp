@@ -78,7 +78,7 @@ struct TriangleContract : testing::Test {
   }
 };
 
-using Bases = testing::Types<LagrangeQuadratic, PowellSabinQuadratic, PowellSabinCubic>;
+using Bases = testing::Types<LinearTriangle, LagrangeQuadratic, PowellSabinQuadratic, PowellSabinCubic>;
 TYPED_TEST_SUITE(TriangleContract, Bases);
 
 TYPED_TEST(TriangleContract, SumsToOneWithoutNegativeParts) {
