@@ -5,8 +5,8 @@
 
 namespace wisp {
 
-/// Quadratic functions that are one at a vertex or in the middle of an edge (thesis, section 3.3). They are
-/// negative in places and kinked across edges: the reason for Powell–Sabin splines, kept to show it.
+/// Quadratic functions that are one at a vertex or in the middle of an edge (de Koster 2018, section 3.3).
+/// They are negative in places and kinked across edges: the reason for Powell–Sabin splines, kept to show it.
 /// Functions of vertices come first, then those of edges.
 class LagrangeQuadratic {
  public:
@@ -46,11 +46,6 @@ class LagrangeQuadratic {
   Stencil tabulate(const Vec<2>& x, int hint) const {
     return tabulate_in(triangulation_->locate(x, hint), x);
   }
-  /// The same with the last triangle as hint: points come in the order of cells.
-  Stencil tabulate(const Vec<2>& x, const Vec<2>& /*half_length*/) const {
-    last_ = triangulation_->locate(x, last_);
-    return tabulate_in(last_, x);
-  }
   /// Stencil at a point of triangle t.
   Stencil tabulate_in(int t, const Vec<2>& x) const {
     const auto b = triangulation_->barycentric(t, x);
@@ -72,7 +67,6 @@ class LagrangeQuadratic {
 
  private:
   const Triangulation* triangulation_;
-  mutable int last_ = -1;
 };
 
 }  // namespace wisp

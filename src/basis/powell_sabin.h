@@ -44,17 +44,12 @@ class PowellSabinSpline {
   const Vec<2>& control_point(int function) const {
     return control_points_[static_cast<std::size_t>(function)];
   }
-  /// Vertex function 3 v + q at its vertex: value, gradient (1/m); the triplet of the thesis, eq. 3.34.
+  /// Vertex function 3 v + q at its vertex: value, gradient (1/m); the triplet of de Koster 2018, eq. 3.34.
   ValueAndGradient triplet(int vertex, int q) const;
 
   /// Stencil at x, which must lie in the grid; `hint` is a triangle near x.
   Stencil tabulate(const Vec<2>& x, int hint) const {
     return tabulate_in(triangulation().locate(x, hint), x);
-  }
-  /// The same with the last triangle as hint: points come in the order of cells.
-  Stencil tabulate(const Vec<2>& x, const Vec<2>& /*half_length*/) const {
-    last_ = triangulation().locate(x, last_);
-    return tabulate_in(last_, x);
   }
   /// Stencil at a point of triangle t.
   Stencil tabulate_in(int t, const Vec<2>& x) const {
@@ -124,7 +119,6 @@ class PowellSabinSpline {
   std::vector<Vec<2>> control_points_;
   std::vector<Table> tables_;
   int n_functions_ = 0;
-  mutable int last_ = -1;
 };
 
 template <class Terms>
