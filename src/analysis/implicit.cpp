@@ -318,11 +318,13 @@ void Implicit<dim>::finish(std::span<const double> u, double dt) {
   }
   model_.external_work += Session::sum(work);
   for (auto& r : model_.reactions) r = Session::sum(r);
+  points_changed_ = true;
   if (walls_) finish_walls(u, dt);
-  for (auto& traction : model_.tractions) traction.move(space, u, dim, 1.0);
+  model_.move_loads(u, dim, 1.0);
   if (newmark_) update_velocities(u, dt);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) commit(stencils_[b], model_.bodies[b], u);
   model_.time += dt;
+  points_changed_ = false;
 }
 
 template <int dim>
@@ -357,10 +359,10 @@ void Implicit<dim>::advance(double dt, int cuts_left, ImplicitRecord& record) {
   std::string residuals;
   for (const double r : report.residuals)
     residuals += fmt::format("{}{:.3e}", residuals.empty() ? "" : ", ", r);
-  throw StepRefused(fmt::format(
+  run_error(
       "step {} at t = {:.6g} s did not converge: {} (residuals {}); try more steps, cuts = 5, line_search = "
       "true, or [stabilisation]",
-      model_.step + 1, model_.time, report.cause, residuals));
+      model_.step + 1, model_.time, report.cause, residuals);
 }
 
 template <int dim>

@@ -22,37 +22,29 @@ MultiIndex<dim> cell_of(const StructuredGrid<dim>& grid, const Vec<dim>& x) {
   return cell;
 }
 
-/// The cells of every size()-th point, so that all ranks together list each point of a replicated list once.
-template <int dim>
-std::vector<MultiIndex<dim>> share_of_cells(const StructuredGrid<dim>& grid,
-                                            const std::vector<Body<dim>>& bodies) {
-  std::vector<MultiIndex<dim>> cells;
-  for (const auto& body : bodies)
-    for (std::size_t p = static_cast<std::size_t>(Session::rank()); p < body.points.position.size();
-         p += static_cast<std::size_t>(Session::size()))
-      cells.push_back(cell_of(grid, body.points.position[p]));
-  return cells;
-}
-
 }  // namespace
 
 template <int dim>
 Model<dim>::Model(const ModelOptions& given) : options(given) {
   const StructuredGrid<dim> grid(options.grid);
   const bool domains = std::holds_alternative<GimpOptions>(options.basis);
-  std::int64_t id = 0;
+  std::vector<Sampler<dim>> samplers;
+  std::vector<MultiIndex<dim>> cells;
   for (const auto& body : options.bodies) {
-    bodies.push_back(sample<dim>(body, grid, domains, id, options.folder));
-    id += bodies.back().points.size();
+    const auto& share = samplers.emplace_back(body, grid, options.folder).share();
+    cells.insert(cells.end(), share.begin(), share.end());
   }
-  const auto cells = share_of_cells(grid, bodies);
   space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), domains);
+  std::int64_t id = 0;
+  for (const auto& sampler : samplers) {
+    bodies.push_back(sampler.points(space->window().owned_cells(), domains, id));
+    id += sampler.count();
+  }
   keep_owned();
   for (const auto& o : options.boundaries)
     boundaries.push_back(make_boundary<dim>(o, *space, options.folder));
   constraints = constraints_of(boundaries, space->n_functions());
-  for (const auto& o : options.loads) loads.emplace_back(o, bodies);
-  for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
+  for (const auto& o : options.loads) loads.push_back(make_load<dim>(o, bodies, *space));
   reactions.assign(boundaries.size(), Vec<dim>::Zero());
   moments.assign(boundaries.size(), Moment<dim>::Zero());
   settle();
@@ -61,11 +53,13 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
 template <int dim>
 void Model<dim>::keep_owned() {
   for (auto& body : bodies) {
-    locate(body.points, space->grid(), space->window());
+    const Location found = locate(body.points, space->grid(), space->window());
+    const int outside = Session::rank() == 0 ? -1 : 0;  // rank 0 keeps those too
     std::vector<char> gone(body.points.cell.size());
-    for (std::size_t p = 0; p < gone.size(); ++p) gone[p] = body.points.cell[p] < 0;
+    for (std::size_t p = 0; p < gone.size(); ++p)
+      gone[p] = body.points.cell[p] < 0 && body.points.cell[p] != outside;
     remove(body, gone);
-    reorder(body, space->window().n_cells());
+    if (found.outside == 0 || Session::rank() != 0) reorder(body, space->window().n_cells());
   }
 }
 
@@ -77,8 +71,8 @@ Vec<dim> Model<dim>::gravity(double t) const {
 
 template <int dim>
 void Model<dim>::add_loads(double t, std::span<double> force) const {
-  for (const auto& load : loads) load.add_force(*space, bodies, t, force);
-  for (const auto& traction : tractions) traction.add_force(*space, t, force);
+  for (const auto& load : loads)
+    std::visit([&](const auto& l) { l.add_force(*space, bodies, t, force); }, load);
   if (!body_acceleration) return;
   std::visit(
       [&](const auto& basis) {
@@ -98,6 +92,17 @@ void Model<dim>::add_loads(double t, std::span<double> force) const {
 }
 
 template <int dim>
+void Model<dim>::move_loads(std::span<const double> field, int stride, double factor) {
+  for (auto& load : loads)
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires { l.move(*space, field, stride, factor); })
+            l.move(*space, field, stride, factor);
+        },
+        load);
+}
+
+template <int dim>
 std::int64_t Model<dim>::n_points() const {
   std::int64_t n = 0;
   for (const auto& body : bodies) n += body.points.size();
@@ -107,23 +112,31 @@ std::int64_t Model<dim>::n_points() const {
 template <int dim>
 void Model<dim>::settle() {
   Eigen::Matrix<int, 2, 1> found(0, 0);
-  std::vector<Location> locations;
+  disorder_.clear();
   for (auto& body : bodies) {
-    locations.push_back(locate(body.points, space->grid(), space->window()));
-    found += Eigen::Matrix<int, 2, 1>(locations.back().outside, locations.back().elsewhere);
+    const Location location = locate(body.points, space->grid(), space->window());
+    disorder_.push_back(location.disorder);
+    found += Eigen::Matrix<int, 2, 1>(location.outside, location.elsewhere);
   }
   if (Session::size() > 1) found = Session::sum(found);
   if (found[0] > 0) remove_outside(static_cast<std::size_t>(found[0]));
   if (found[1] > 0) migrate();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bool moved = found[0] > 0 || found[1] > 0;
-    if (moved || locations[b].disorder > tolerated_disorder * bodies[b].points.size())
-      reorder(bodies[b], space->window().n_cells());
+    if (moved || disorder_[b] > tolerated_disorder * bodies[b].points.size())
+      reorder(bodies[b], space->window().n_cells()), ++reorderings;
   }
   if (space->domains()) choose_width();
-  if (tractions.empty()) return;
-  const ActiveCells active = active_cells(*space, bodies);
-  for (auto& traction : tractions) traction.settle(*space, active);
+  std::optional<ActiveCells> active;
+  for (auto& load : loads)
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires(const ActiveCells& cells) { l.settle(*space, cells); }) {
+            if (!active) active = active_cells(*space, bodies);
+            l.settle(*space, *active);
+          }
+        },
+        load);
 }
 
 template <int dim>
@@ -143,8 +156,10 @@ void Model<dim>::remove_outside(std::size_t outside) {
     }
     if (options.grid.leaving == Leaving::remove) remove(body, gone);
   }
-  removed += static_cast<std::int64_t>(outside);
-  if (options.grid.leaving == Leaving::remove) return;
+  if (options.grid.leaving == Leaving::remove) {
+    removed += static_cast<std::int64_t>(outside);
+    return;
+  }
   std::string error;
   if (!examples.empty())
     error = fmt::format(
@@ -188,7 +203,15 @@ void Model<dim>::choose_width() {
   }
   if (std::visit([](const auto& basis) { return basis.width; }, space->basis()) != (narrow ? 3 : 5))
     space->set_width(narrow ? 3 : 5);
-  if (wide) return;
+  std::string fault;
+  if (!wide) fault = oversized_domain();
+  Session::raise_together(fault);
+}
+
+/// Words about a point whose domain covers more cells than a stencil has; none if there is no such point.
+template <int dim>
+std::string Model<dim>::oversized_domain() const {
+  const StructuredGrid<dim>& grid = space->grid();
   // The shortest cell is too short for the longest domain; but they may be far apart.
   for (const auto& body : bodies)
     for (std::size_t p = 0; p < body.points.position.size(); ++p)
@@ -196,12 +219,13 @@ void Model<dim>::choose_width() {
         const double x = body.points.position[p][d], l = body.points.half_length[p][d];
         const int c = grid.locate(d, x), first = grid.locate(d, x - l), last = grid.locate(d, x + l);
         if (!(std::isfinite(l)) || last - first > 3 || c - first > 2 || last - c > 2)
-          run_error(
+          return fmt::format(
               "step {} at t = {:.6g} s: the domain of point {} of '{}' has grown to {:.4g} m in direction {} "
               "and covers more "
               "than four cells; use larger cells, smaller domains (more points), or linear functions",
               step, time, body.points.id[p], body.name, 2 * l, "xyz"[d]);
       }
+  return {};
 }
 
 template <int dim>

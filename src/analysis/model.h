@@ -8,7 +8,6 @@
 
 #include "basis/space.h"
 #include "boundary/list.h"
-#include "boundary/loads.h"
 #include "core/timers.h"
 #include "linear/solver.h"
 #include "particle/body.h"
@@ -23,8 +22,7 @@ struct ModelOptions {
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
   std::vector<AnyBoundaryOptions> boundaries;
-  std::vector<PointLoadOptions> loads;
-  std::vector<TractionOptions> tractions;
+  std::vector<AnyLoadOptions> loads;
   std::optional<GravityOptions> gravity;
   std::optional<GhostOptions> stabilisation;
   SolverOptions solver;
@@ -34,7 +32,7 @@ struct ModelOptions {
 /// A run on this rank. Plain members: analyses change them, output reads them.
 template <int dim>
 struct Model {
-  /// Samples the bodies, splits the grid by their points and keeps this rank's. Collective. Errors:
+  /// Splits the grid by the points of the bodies and samples those of this rank. Collective. Errors:
   /// InputError.
   explicit Model(const ModelOptions& options);
 
@@ -43,8 +41,7 @@ struct Model {
   std::vector<Body<dim>> bodies;
   std::vector<AnyBoundary<dim>> boundaries;
   Constraints<dim> constraints;
-  std::vector<PointLoad<dim>> loads;
-  std::vector<Traction<dim>> tractions;
+  std::vector<AnyLoad<dim>> loads;
 
   /// Body force per mass (m/s2) besides gravity at a point's initial position (m) and a time (s); not in case
   /// files. Forces that make a chosen motion the exact solution come in here.
@@ -52,6 +49,7 @@ struct Model {
 
   double time = 0.0;                 ///< s
   std::int64_t step = 0;             ///< finished steps, over all stages
+  std::int64_t reorderings = 0;      ///< times the points of a body were put in order, this rank
   std::int64_t removed = 0;          ///< points removed because they left the grid, all ranks
   double external_work = 0.0;        ///< J, of body forces, loads and prescribed motion, all ranks
   std::vector<Vec<dim>> reactions;   ///< N, on the bodies, one a boundary, all ranks, of the last step
@@ -59,8 +57,10 @@ struct Model {
   Timers timers;
 
   Vec<dim> gravity(double t) const;
-  bool has_loads() const { return !loads.empty() || !tractions.empty() || body_acceleration; }
-  /// Adds point loads, tractions and body_acceleration at time t to `force` (n_functions x dim), this rank's
+  bool has_loads() const { return !loads.empty() || body_acceleration; }
+  /// Moves what of the loads moves with the bodies, see boundary/list.h.
+  void move_loads(std::span<const double> field, int stride, double factor);
+  /// Adds loads and body_acceleration at time t to `force` (n_functions x dim), this rank's
   /// share.
   void add_loads(double t, std::span<double> force) const;
   std::int64_t n_points() const;  ///< all ranks
@@ -74,13 +74,17 @@ struct Model {
   bool rebalance();
   /// Splits the grid in the given way. Points stay where they are: see `keep_owned`, `settle`.
   void make_space(const BoxPartition<dim>& partition);
-  /// Of points that every rank has, keeps those of this rank's cells, in cell order.
+  /// Of points that every rank has, keeps those of this rank's cells, in cell order; points outside the grid
+  /// stay on rank 0, for `settle`.
   void keep_owned();
 
  private:
   void remove_outside(std::size_t outside);
   void migrate();
   void choose_width();
+  std::string oversized_domain() const;
+
+  std::vector<int> disorder_;  // of every body; kept, so that steps allocate nothing
 };
 
 }  // namespace wisp

@@ -1,4 +1,4 @@
-// Every boundary that a case file can name. A new one is one file and one word here.
+// Every boundary and every load that a case file can name. A new one is one file and one word here.
 //
 // A boundary has a name() and any of these hooks; absent ones cost nothing:
 //     constrain(index, Constraints&)      once: holds unknowns of the grid
@@ -7,12 +7,21 @@
 //     holds(direction)                    its reaction has a component there
 //     begin_step, add_pattern, add_stiffness, add_force, finish    implicit steps, see Wall
 //     reaction, moment, work              members, if it finds its reactions itself
+//
+// A load has a name() and
+//     add_force(space, bodies, t, force)  adds this rank's share to an array over functions and directions
+// and may have
+//     settle(space, active)               before a step, when the points have their cells
+//     move(space, field, stride, factor)  after a step, with its field of displacements or velocities
+//     for_each_field(f)                   arrays that checkpoints keep
 #pragma once
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "boundary/conforming.h"
+#include "boundary/point_load.h"
+#include "boundary/traction.h"
 #include "boundary/wall.h"
 
 namespace wisp {
@@ -23,6 +32,30 @@ inline constexpr int default_alternative<AnyBoundaryOptions> = 0;
 
 template <int dim>
 using AnyBoundary = std::variant<Conforming<dim>, Wall<dim>>;
+
+using AnyLoadOptions = std::variant<PointLoadOptions, TractionOptions>;
+template <>
+inline constexpr int default_alternative<AnyLoadOptions> = 0;
+
+template <int dim, class List>
+struct LoadVariant;
+template <int dim, class... Options>
+struct LoadVariant<dim, std::variant<Options...>> {
+  using type = std::variant<typename Options::template Load<dim>...>;
+};
+template <int dim>
+using AnyLoad = typename LoadVariant<dim, AnyLoadOptions>::type;
+
+/// Collective; `bodies` are this rank's.
+template <int dim>
+AnyLoad<dim> make_load(const AnyLoadOptions& options, const std::vector<Body<dim>>& bodies,
+                       const Space<dim>& space) {
+  return std::visit(
+      [&](const auto& o) -> AnyLoad<dim> {
+        return typename std::decay_t<decltype(o)>::template Load<dim>(o, bodies, space);
+      },
+      options);
+}
 
 template <int dim>
 AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space,

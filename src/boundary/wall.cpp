@@ -39,6 +39,9 @@ Mat<dim> axes(const Vec<dim>& n) {
   return a;
 }
 
+/// Chords of curved walls are this part of the shortest side of a cell, or less.
+constexpr double longest_chord = 0.25;
+
 /// The active cell whose functions a part of a wall uses: its host, or where that is empty the next active
 /// one along the normal within one cell's length. False if there is none.
 template <int dim>
@@ -101,6 +104,12 @@ Moment<dim> moment_of(const Vec<dim>& arm, const Vec<dim>& force) {
 template <int dim>
 Wall<dim>::Wall(const WallOptions& options, const std::filesystem::path& folder)
     : options_(options), shape_(options.shape, folder) {
+  is_curved_ = std::visit(
+      [](const auto& s) {
+        using S = std::decay_t<decltype(s)>;
+        return std::is_same_v<S, CircleWall> || std::is_same_v<S, ArcWall> || std::is_same_v<S, LevelSetWall>;
+      },
+      options.shape);
   if (options.motion) motion_ = RigidMotion<dim>(*options.motion);
 }
 
@@ -121,7 +130,8 @@ template <int dim>
 void Wall<dim>::cut(const StructuredGrid<dim>& grid, double t) {
   if (pieces_.empty()) {
     const Vec<dim> margin = Vec<dim>::Constant(2.0 * grid.shortest_side());
-    pieces_ = shape_.pieces(grid.shortest_side(), {grid.lower() - margin, grid.upper() + margin});
+    pieces_ =
+        shape_.pieces(longest_chord * grid.shortest_side(), {grid.lower() - margin, grid.upper() + margin});
   }
   bool flat = !options_.displacement.empty() || !options_.velocity.empty();
   for (const auto& piece : pieces_) flat &= (piece.normal - pieces_.front().normal).norm() < 1e-9;
@@ -164,14 +174,18 @@ void Wall<dim>::begin_step(const Space<dim>& space, const ActiveCells& active,
     for (int d = 0; d < dim; ++d) h += part.normal[d] * part.normal[d] * space.grid().spacing(d, cell[d]);
     const double delta = options_.delta.value_or(options_.mode == WallMode::literal ? 1e-6 : 1e-2);
     const double penalty = band_integrals(delta * h).slope_squared;
-    const Vec<dim> own = own_displacement(turn.transpose() * part.normal, t, dt);
     parts_.push_back(points_.size());
     for (std::size_t q = part.first; q < part.first + part.count; ++q) {
       const Vec<dim>& x = cut_.position[q];
-      const WallState<dim> state = memory.at(motion_.rest(x, t) - shift_);
-      points_.push_back({cell_functions(space, cell, x), x, part.normal,
-                         motion_.increment(x, t, dt) + motion_.rotation(t + dt) * own, turn * state.traction,
-                         turn * state.gap, cut_.weight[q], e.lambda, e.mu, penalty});
+      const Vec<dim> rest = motion_.rest(x, t) - shift_;
+      // Of curves the normal of the curve itself: that of the chord would prescribe steps from chord to
+      // chord.
+      const Vec<dim> normal =
+          is_curved_ ? shape_.signed_distance(rest).normal : turn.transpose() * part.normal;
+      const Vec<dim> own = motion_.rotation(t + dt) * own_displacement(normal, t, dt);
+      const WallState<dim> state = memory.at(rest);
+      points_.push_back({cell_functions(space, cell, x), x, turn * normal, motion_.increment(x, t, dt) + own,
+                         turn * state.traction, turn * state.gap, cut_.weight[q], e.lambda, e.mu, penalty});
     }
   }
   parts_.push_back(points_.size());

@@ -94,7 +94,7 @@ class Wall {
   RigidMotion<dim> motion_;
   std::vector<WallPiece<dim>> pieces_;  // at rest
   WallCut<dim> cut_;
-  bool is_cut_ = false;
+  bool is_cut_ = false, is_curved_ = false;
   Vec<dim> shift_ = Vec<dim>::Zero();  // own displacement of a flat wall so far, at rest
   std::vector<Point> points_;
   std::vector<std::size_t> parts_;  // first point of each part that works, and the end

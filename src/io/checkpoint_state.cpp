@@ -58,8 +58,8 @@ std::string field_name(std::size_t body, std::string_view field) {
 std::string wall_name(std::size_t boundary, const char* field) {
   return fmt::format("wall {} {}", boundary, field);
 }
-std::string traction_name(std::size_t traction, const char* field) {
-  return fmt::format("traction {} {}", traction, field);
+std::string load_name(std::size_t load, std::string_view field) {
+  return fmt::format("load {} {}", load, field);
 }
 
 /// Points of one part, behind those that are there already.
@@ -116,16 +116,20 @@ void restore_walls(const Checkpoint& checkpoint, Model<dim>& model) {
 /// What all ranks have alike.
 template <int dim>
 void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
-  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
-    auto& traction = model.tractions[k];
-    const auto size = static_cast<std::size_t>(traction.size());
-    traction.positions().clear(), traction.deformation_gradients().clear();
-    append(checkpoint, traction_name(k, "position"), traction.positions());
-    append(checkpoint, traction_name(k, "deformation_gradient"), traction.deformation_gradients());
-    if (traction.positions().size() != size || traction.deformation_gradients().size() != size)
-      input_error("checkpoint: traction '{}' has {} surface points, expected {}", traction.name(),
-                  traction.positions().size(), size);
-  }
+  for (std::size_t k = 0; k < model.loads.size(); ++k)
+    std::visit(
+        [&](auto& load) {
+          const auto read = [&](std::string_view field, auto& array) {
+            const std::size_t size = array.size();
+            array.clear();
+            append(checkpoint, load_name(k, field), array);
+            if (array.size() != size)
+              input_error("checkpoint: load '{}' has {} marked points, expected {}", load.name(),
+                          array.size(), size);
+          };
+          if constexpr (requires { load.for_each_field(read); }) load.for_each_field(read);
+        },
+        model.loads[k]);
   model.reactions.clear();
   append(checkpoint, "reactions", model.reactions);
   if (model.reactions.size() != model.boundaries.size())
@@ -152,10 +156,15 @@ void store(Model<dim>& model, Checkpoint& checkpoint) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     model.bodies[b].for_each_field(
         [&](std::string_view name, const auto& field) { set(checkpoint, field_name(b, name), field); });
-  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
-    set(checkpoint, traction_name(k, "position"), model.tractions[k].positions());
-    set(checkpoint, traction_name(k, "deformation_gradient"), model.tractions[k].deformation_gradients());
-  }
+  for (std::size_t k = 0; k < model.loads.size(); ++k)
+    std::visit(
+        [&](auto& load) {
+          const auto write = [&](std::string_view field, const auto& array) {
+            set(checkpoint, load_name(k, field), array);
+          };
+          if constexpr (requires { load.for_each_field(write); }) load.for_each_field(write);
+        },
+        model.loads[k]);
   set(checkpoint, "reactions", model.reactions);
   set(checkpoint, "moments", model.moments);
   store_walls(model, checkpoint);
@@ -185,30 +194,36 @@ void restore(const Checkpoint& checkpoint, Model<dim>& model) {
 }
 
 template <int dim>
-void restore_parts(const std::vector<Checkpoint>& parts, Model<dim>& model) {
-  clear_points(model);
-  for (const auto& part : parts) append_points(part, model);
+void restore_parts(const CheckpointParts& parts, Model<dim>& model) {
   const StructuredGrid<dim> grid = model.space->grid();
   std::vector<MultiIndex<dim>> cells;
-  const auto ranks = static_cast<std::size_t>(Session::size());
-  for (const auto& body : model.bodies)
-    for (std::size_t p = static_cast<std::size_t>(Session::rank()); p < body.points.position.size();
-         p += ranks) {
-      MultiIndex<dim> cell;
-      for (int d = 0; d < dim; ++d)
-        cell[d] = std::clamp(grid.locate_inside(d, body.points.position[p][d]), 0, grid.cells(d) - 1);
-      cells.push_back(cell);
+  for (int part = Session::rank(); part < parts.n(); part += Session::size()) {
+    const Checkpoint checkpoint = parts.read(part);
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      std::vector<Vec<dim>> positions;
+      append(checkpoint, field_name(b, "position"), positions);
+      for (const auto& x : positions) {
+        MultiIndex<dim> cell;
+        for (int d = 0; d < dim; ++d) cell[d] = std::clamp(grid.locate_inside(d, x[d]), 0, grid.cells(d) - 1);
+        cells.push_back(cell);
+      }
     }
+  }
   model.make_space(BoxPartition<dim>(grid.cells(), cells));
-  restore_common(parts.front(), model);
-  model.keep_owned();
+  clear_points(model);
+  for (int part = 0; part < parts.n(); ++part) {
+    const Checkpoint checkpoint = parts.read(part);
+    if (part == 0) restore_common(checkpoint, model);
+    append_points(checkpoint, model);
+    model.keep_owned();
+  }
 }
 
 template void store<2>(Model<2>&, Checkpoint&);
 template void store<3>(Model<3>&, Checkpoint&);
 template void restore<2>(const Checkpoint&, Model<2>&);
 template void restore<3>(const Checkpoint&, Model<3>&);
-template void restore_parts<2>(const std::vector<Checkpoint>&, Model<2>&);
-template void restore_parts<3>(const std::vector<Checkpoint>&, Model<3>&);
+template void restore_parts<2>(const CheckpointParts&, Model<2>&);
+template void restore_parts<3>(const CheckpointParts&, Model<3>&);
 
 }  // namespace wisp

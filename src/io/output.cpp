@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "boundary/on_body.h"
 #include "grid/structured.h"
 
 namespace wisp {

@@ -154,6 +154,7 @@ TEST(List, NamesAndKeysAreUniqueAndExplained) {
   check(Ball{});
   check(Polygon{});
   check(PointFile{});
+  check(StlSolid{});
   EXPECT_EQ(names.size(), std::variant_size_v<AnyShape>);
 }
 

@@ -52,7 +52,8 @@ body = "left"
 nearest = [[0.5, 0.5]]
 force = [1.0, 0.0]
 factor = [[0.0, 0.0], [1.0, 1.0]]
-[[traction]]
+[[load]]
+type = "traction"
 name = "cover"
 body = "left"
 corner = [1.5, 1.5]
@@ -127,7 +128,7 @@ TEST(Case, ReadsTheGoodOne) {
   EXPECT_EQ(std::get<VonMises>(c.bodies[1].material).yield_stress, 1e4);
   EXPECT_EQ(c.bodies[1].sampling.points_per_cell, 3);
   EXPECT_EQ(std::get<ExplicitOptions>(c.stages[1]).cfl, 0.4);
-  EXPECT_DOUBLE_EQ(c.loads[0].factor(0.5), 0.5);
+  EXPECT_DOUBLE_EQ(std::get<PointLoadOptions>(c.loads[0]).factor(0.5), 0.5);
   EXPECT_EQ(c.output.track[0].label, "tip");
   EXPECT_EQ(default_output_folder(c), std::filesystem::path("results/good"));
   EXPECT_EQ(default_output_folder(read_case(CaseSource{"a/beam/case.toml", "a/beam", good, {}})),

@@ -96,7 +96,8 @@ const std::string out =
 std::vector<Variation> variations() {
   const std::string ghost(test::ghost);
   const std::string traction =
-      "[[traction]]\nname = \"cover\"\nbody = \"block\"\ncorner = [1.25, 1.0]\nedges = [[-1.0, 0.0]]\npoints "
+      "[[load]]\ntype = \"traction\"\nname = \"cover\"\nbody = \"block\"\ncorner = [1.25, 1.0]\nedges = "
+      "[[-1.0, 0.0]]\npoints "
       "= "
       "[8]\npressure = [[0.0, 0.0], [0.04, 1e3]]\n";
   const std::string load =
@@ -190,7 +191,7 @@ TEST_P(Resume, HasTheSameBits) {
   run_case(GetParam().text.read(), straight, Talk::quiet);
   fs::copy(straight, stopped, fs::copy_options::recursive);
   turn_back(stopped);
-  resume_run(stopped, Talk::quiet);
+  resume_run(stopped, {}, Talk::quiet);
   expect_same_checkpoint(straight, stopped, GetParam().von_mises);
   int files = 0;
   for (const auto& entry : fs::directory_iterator(straight)) {

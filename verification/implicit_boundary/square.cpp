@@ -22,13 +22,15 @@ Vec<2> placed(const SquareCase& square, const Vec<2>& own) {
 
 ModelOptions square_options(const SquareCase& square) {
   const double h = square.h;
-  const Vec<2> corners[] = {placed(square, {0, 0}), placed(square, {side, 0}), placed(square, {side, side}),
-                            placed(square, {0, side})};
+  const double w = square.width, l = square.height;
+  const Vec<2> corners[] = {placed(square, {0, 0}), placed(square, {w, 0}), placed(square, {w, l}),
+                            placed(square, {0, l})};
   ModelOptions o;
   for (int d = 0; d < 2; ++d) {
     double low = corners[0][d], high = low;
     for (const Vec<2>& x : corners) low = std::min(low, x[d]), high = std::max(high, x[d]);
-    const double first = std::floor(low / h + 1e-9) - 2.0, last = std::ceil(high / h - 1e-9) + 2.0;
+    const double first = std::floor((low - square.room) / h + 1e-9) - 2.0;
+    const double last = std::ceil((high + square.room) / h - 1e-9) + 2.0;
     o.grid.lower.push_back(first * h), o.grid.upper.push_back(last * h);
     o.grid.cells.push_back(static_cast<int>(std::lround(last - first)));
   }
@@ -79,6 +81,15 @@ Solved solve(const ModelOptions& options, int steps) {
   for (int step = 0; step < steps; ++step)
     solved.record = solved.analysis->step(solved.analysis->time_step());
   return solved;
+}
+
+Vec<2> mean_displacement(const Solved& solved, const SquareCase& square) {
+  Vec<2> mean = Vec<2>::Zero();
+  double volume = 0.0;
+  const auto& points = solved.model->bodies.front().points;
+  for (std::size_t p = 0; p < points.volume.size(); ++p)
+    mean += points.volume[p] * points.displacement[p], volume += points.volume[p];
+  return turn(square.angle).transpose() * mean / volume;
 }
 
 Vec<2> at_node(const Solved& solved, int i, int j) {

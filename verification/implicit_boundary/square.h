@@ -1,4 +1,5 @@
-// The 100 mm square of Cortis, Coombs and Augarde 2018, sections 5.1 and 5.2, at any inclination to the grid.
+// The 100 mm square of Cortis, Coombs and Augarde 2018, sections 5.1 and 5.2, and other rectangles, at any
+// inclination to the grid.
 // Lengths in mm, stresses in MPa, forces in N/mm.
 #pragma once
 #include <memory>
@@ -11,10 +12,12 @@ namespace wisp::implicit_boundary_paper {
 constexpr double side = 100.0, young_modulus = 1000.0, poisson_ratio = 0.3;
 
 struct SquareCase {
-  double angle = 0.0;             ///< degrees, of the square against the grid, about `pivot`
-  Vec<2> pivot = Vec<2>::Zero();  ///< mm, a node of the grid
-  double h = 10.0;                ///< mm
-  int points = 1;                 ///< a cell and direction
+  double angle = 0.0;                  ///< degrees, of the square against the grid, about `pivot`
+  Vec<2> pivot = Vec<2>::Zero();       ///< mm, a node of the grid
+  double width = side, height = side;  ///< mm, along the rectangle's own axes
+  double room = 0.0;                   ///< mm, empty space around besides two cells
+  double h = 10.0;                     ///< mm
+  int points = 1;                      ///< a cell and direction
   WallMode mode = WallMode::consistent;
   std::optional<double> delta{};  ///< in units of h
   bool gimp = false;
@@ -24,7 +27,7 @@ struct SquareCase {
 
 /// Turned by the angle; exact at multiples of 90 degrees.
 Mat<2> turn(double degrees);
-/// A point of the square's own axes, [0, 100]^2, in those of the grid.
+/// A point of the rectangle's own axes, [0, width] x [0, height], in those of the grid.
 Vec<2> placed(const SquareCase& square, const Vec<2>& own);
 
 /// Grid with lines at multiples of h and two empty cells around; the body; no walls yet.
@@ -40,6 +43,8 @@ struct Solved {
   ImplicitRecord record;
 };
 Solved solve(const ModelOptions& options, int steps = 1);
+/// Volume mean of the points' displacements (mm), along the rectangle's own axes.
+Vec<2> mean_displacement(const Solved& solved, const SquareCase& square);
 
 /// Displacement of the grid at a node (mm), over the last step.
 Vec<2> at_node(const Solved& solved, int i, int j);
