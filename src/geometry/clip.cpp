@@ -8,10 +8,6 @@
 
 namespace wisp {
 
-template <>
-ClippedBox<3> clip_box<3>(const Region<3>& shape, const std::vector<HalfSpace<3>>& cuts,
-                          const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
-
 namespace {
 
 template <int dim>
@@ -145,40 +141,6 @@ ClippedBox<2> clip(const std::vector<Corners<2>>& rings, const std::vector<HalfS
   return sum.about(origin);
 }
 
-/// Closed surfaces stay closed if what lies beyond a plane is projected onto it, and points on its inner side
-/// stay as often inside as they were; so a solid is cut by its surface alone, without looking for the rest of
-/// its boundary.
-ClippedBox<3> clip(const Solid& solid, const std::vector<HalfSpace<3>>& cuts, const Vector<3>& lower,
-                   const Vector<3>& upper) {
-  const Vector<3> origin = 0.5 * (lower + upper);
-  Integrals<3> sum;
-  const double reach = 0.5 * (upper - lower).norm(), inside = solid.distance(origin);
-  if (inside < -reach) return {};
-  if (inside > reach) return clip_box<3>(Block<3>{lower, upper}, cuts, lower, upper);
-  std::vector<HalfSpace<3>> all = sides<3>(lower, upper);
-  for (const auto& cut : cuts) all.push_back({cut.point, cut.normal.normalized()});
-  std::vector<Corners<3>> parts, next;
-  for (int f = 0; f < solid.surface().size(); ++f) {
-    const auto v = solid.surface().piece(f).vertex;
-    parts.assign(1, Corners<3>(v.begin(), v.end()));
-    for (const auto& half : all) {
-      next.clear();
-      for (const auto& part : parts) {
-        Corners<3> in = cut_corners<3>(part, half);
-        Corners<3> out = cut_corners<3>(part, {half.point, -half.normal});
-        for (auto& x : out) x -= (x - half.point).dot(half.normal) * half.normal;
-        if (in.size() > 2) next.push_back(std::move(in));
-        if (out.size() > 2) next.push_back(std::move(out));
-      }
-      parts.swap(next);
-    }
-    for (const auto& part : parts)
-      for (std::size_t k = 1; k + 1 < part.size(); ++k)
-        sum.add({part[0] - origin, part[k] - origin, part[k + 1] - origin});
-  }
-  return sum.about(origin);
-}
-
 }  // namespace
 
 template <>
@@ -190,7 +152,6 @@ ClippedBox<2> clip_box<2>(const Region<2>& shape, const std::vector<HalfSpace<2>
 template <>
 ClippedBox<3> clip_box<3>(const Region<3>& shape, const std::vector<HalfSpace<3>>& cuts,
                           const Vector<3>& lower, const Vector<3>& upper) {
-  if (const auto* solid = std::get_if<Solid>(&shape)) return clip(*solid, cuts, lower, upper);
   const auto* block = std::get_if<Block<3>>(&shape);
   if (!block) input_error("shape: points cannot be cut at a ball; give a box with cuts, or clip = false");
   const Vector<3> a = lower.cwiseMax(block->lower), b = upper.cwiseMin(block->upper);

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "geometry/block.h"
+#include "geometry/region.h"
 #include "geometry/wall_piece.h"
 
 namespace wisp {

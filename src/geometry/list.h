@@ -7,12 +7,11 @@
 #include "geometry/box.h"
 #include "geometry/point_file.h"
 #include "geometry/polygon.h"
-#include "geometry/solid.h"
 
 namespace wisp {
 
 /// Shapes of which a body can be made.
-using AnyShape = std::variant<Box, Ball, Polygon, PointFile, StlSolid>;
+using AnyShape = std::variant<Box, Ball, Polygon, PointFile>;
 
 /// Shapes with an inside, for choosing points or nodes.
 using AnyRegion = std::variant<Box, Ball, Polygon>;

@@ -154,7 +154,6 @@ TEST(List, NamesAndKeysAreUniqueAndExplained) {
   check(Ball{});
   check(Polygon{});
   check(PointFile{});
-  check(StlSolid{});
   EXPECT_EQ(names.size(), std::variant_size_v<AnyShape>);
 }
 
