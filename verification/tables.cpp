@@ -2,12 +2,14 @@
 
 #include "verification/ghost/list.h"
 #include "verification/implicit_boundary/list.h"
+#include "verification/powell_sabin/list.h"
 
 namespace wisp {
 
 std::vector<VerificationTable> verification_tables() {
-  auto all = ghost_tables();
-  for (auto& table : implicit_boundary_tables()) all.push_back(std::move(table));
+  std::vector<VerificationTable> all;
+  for (auto* paper : {ghost_tables, implicit_boundary_tables, powell_sabin_tables})
+    for (auto& table : paper()) all.push_back(std::move(table));
   return all;
 }
 

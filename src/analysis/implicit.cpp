@@ -82,7 +82,8 @@ void Implicit<dim>::set_up(double dt) {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       tabulate(space, model_.bodies[b].points, stencils_[b]);
     cells = active_cells(space, model_.bodies);
-    active_ = active_functions(space, cells);
+    const auto& ghost = model_.options.stabilisation;
+    active_ = active_functions(space, ghost ? ghost_cells(space, cells, *ghost) : cells);
     external_force(model_.time + dt, external_);
     external_force(model_.time, start_external_);
   }
@@ -90,7 +91,8 @@ void Implicit<dim>::set_up(double dt) {
   const auto timer = model_.timers.start("2 ghost matrix");
   const auto& options = ghost_options_;
   std::vector<GhostFacet> facets;
-  if (options) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries));
+  if (options)
+    facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), options->elements);
   ghost_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, ghost_);
   add_ghost_pattern(space, facets, ghost_);

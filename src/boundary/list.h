@@ -4,6 +4,7 @@
 //     constrain(index, Constraints&)      once: holds unknowns of the grid
 //     increment(t, dt), velocity(t, dt)   what the held unknowns do in a step
 //     on_edge(direction, side)            holds a whole edge of the grid
+//     edges()                             edges of a triangulation that it holds
 //     holds(direction)                    its reaction has a component there
 //     begin_step, add_pattern, add_stiffness, add_force, finish    implicit steps, see Wall
 //     reaction, moment, work              members, if it finds its reactions itself
@@ -15,14 +16,17 @@
 //     move(space, field, stride, factor)  after a step, with its field of displacements or velocities
 //     for_each_field(f)                   arrays that checkpoints keep
 #pragma once
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "basis/facet.h"
 #include "boundary/conforming.h"
 #include "boundary/point_load.h"
 #include "boundary/traction.h"
 #include "boundary/wall.h"
+#include "core/error.h"
 
 namespace wisp {
 
@@ -62,7 +66,10 @@ AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<di
                                const std::filesystem::path& folder = {}) {
   if (const auto* conforming = std::get_if<ConformingOptions>(&options))
     return Conforming<dim>(*conforming, space);
-  return Wall<dim>(std::get<WallOptions>(options), folder);
+  const auto& wall = std::get<WallOptions>(options);
+  if (!space.structured())
+    input_error("boundary '{}': walls need a structured grid; on triangles hold a named part", wall.label);
+  return Wall<dim>(wall, folder);
 }
 
 template <int dim>
@@ -130,18 +137,22 @@ void set_velocities(const std::vector<AnyBoundary<dim>>& boundaries, double t, d
         boundaries[k]);
 }
 
-/// Which edges of the grid the boundaries hold: entry 2 d + side, side 0 the lower and 1 the upper edge of
-/// direction d.
+/// Which edges of the grid the boundaries hold.
 template <int dim>
-std::array<bool, 2 * dim> held_edges(const std::vector<AnyBoundary<dim>>& boundaries) {
-  std::array<bool, 2 * dim> held{};
+HeldEdges<dim> held_edges(const std::vector<AnyBoundary<dim>>& boundaries) {
+  HeldEdges<dim> held;
   for (const auto& boundary : boundaries)
     std::visit(
         [&](const auto& b) {
           for (int d = 0; d < dim; ++d)
             for (int side = 0; side < 2; ++side)
               if constexpr (requires { b.on_edge(d, side); })
-                held[static_cast<std::size_t>(2 * d + side)] |= b.on_edge(d, side);
+                held.side[static_cast<std::size_t>(2 * d + side)] |= b.on_edge(d, side);
+          if constexpr (requires { b.edges(); })
+            for (const int e : b.edges()) {
+              held.edge.resize(std::max(held.edge.size(), static_cast<std::size_t>(e) + 1), 0);
+              held.edge[static_cast<std::size_t>(e)] = 1;
+            }
         },
         boundary);
   return held;

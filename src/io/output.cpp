@@ -5,6 +5,7 @@
 
 #include "boundary/on_body.h"
 #include "grid/structured.h"
+#include "grid/triangulate.h"
 
 namespace wisp {
 namespace {
@@ -131,13 +132,63 @@ std::string json_text(const std::string& text) {
 }
 
 template <int dim>
-std::string grid_json(const StructuredGridOptions& options) {
+std::string lines_json(const StructuredGridOptions& options) {
   const StructuredGrid<dim> grid(options);
-  std::string text;
+  std::string text = "{\"coordinates\": [";
   for (int d = 0; d < dim; ++d) {
     text += d ? ",\n  [" : "\n  [";
     for (int i = 0; i <= grid.cells(d); ++i) text += fmt::format("{}{}", i ? ", " : "", grid.line(d, i));
     text += "]";
+  }
+  return text + "]}";
+}
+
+std::string triangles_json(const Triangulation& mesh) {
+  std::string text = "{\"points\": [";
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    text += fmt::format("{}[{}, {}]", v ? ", " : "", mesh.vertex(v).x(), mesh.vertex(v).y());
+  text += "],\n  \"cells\": [";
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    text += fmt::format("{}[{}, {}, {}]", t ? ", " : "", mesh.triangle(t)[0], mesh.triangle(t)[1],
+                        mesh.triangle(t)[2]);
+  return text + "]}";
+}
+
+std::string grid_json(const Case& c) {
+  if (const auto triangulation = triangulation_of(c.grid))
+    return triangles_json(make_triangulation(*triangulation, c.file.folder));
+  const auto& lines = std::get<StructuredGridOptions>(c.grid);
+  return c.dimension == 2 ? lines_json<2>(lines) : lines_json<3>(lines);
+}
+
+/// The pieces of walls that stand still, each a line of places.
+template <int dim>
+std::string walls_json(const Case& c) {
+  double length;
+  Block<dim> box;
+  if (const auto* lines = std::get_if<StructuredGridOptions>(&c.grid)) {
+    const StructuredGrid<dim> grid(*lines);
+    length = grid.shortest_side(), box = {grid.lower(), grid.upper()};
+  } else if constexpr (dim == 2) {
+    const Triangulation mesh = make_triangulation(*triangulation_of(c.grid), c.file.folder);
+    length = mesh.shortest_height(), box = {mesh.lower(), mesh.upper()};
+  } else {
+    return {};
+  }
+  std::string text;
+  for (const auto& boundary : c.boundaries) {
+    const auto* o = std::get_if<WallOptions>(&boundary);
+    if (!o || o->motion) continue;
+    const Wall<dim> wall(*o, c.file.folder);
+    for (const auto& piece : wall.shape().pieces(length, box)) {
+      text += text.empty() ? "[" : ",\n  [";
+      for (std::size_t k = 0; k < dim; ++k) {
+        text += k > 0 ? ", [" : "[";
+        for (int d = 0; d < dim; ++d) text += fmt::format("{}{}", d > 0 ? ", " : "", piece.vertex[k][d]);
+        text += "]";
+      }
+      text += "]";
+    }
   }
   return text;
 }
@@ -145,8 +196,29 @@ std::string grid_json(const StructuredGridOptions& options) {
 }  // namespace
 
 std::string scene_json(const Case& c) {
-  return fmt::format("{{\"title\": {},\n \"grid\": {{\"coordinates\": [{}]}}}}\n", json_text(c.title),
-                     c.dimension == 2 ? grid_json<2>(c.grid) : grid_json<3>(c.grid));
+  return fmt::format("{{\"title\": {},\n \"grid\": {},\n \"walls\": [{}]}}\n", json_text(c.title),
+                     grid_json(c), c.dimension == 2 ? walls_json<2>(c) : walls_json<3>(c));
+}
+
+VtuCells grid_cells(const Triangulation& mesh) {
+  VtuCells cells;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    cells.positions.insert(cells.positions.end(), {mesh.vertex(v).x(), mesh.vertex(v).y(), 0.0});
+  std::vector<double> areas;
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    for (const int v : mesh.triangle(t)) cells.connectivity.push_back(v);
+    cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+    cells.types.push_back(VtuCell::triangle);
+    areas.push_back(mesh.area(t));
+  }
+  cells.cell_fields.push_back({"area", 1, std::move(areas), "m^2", {}});
+  for (const auto& part : mesh.parts()) {
+    if (part.vertices.empty()) continue;
+    std::vector<std::int64_t> on_part(static_cast<std::size_t>(mesh.n_vertices()), 0);
+    for (const int v : part.vertices) on_part[static_cast<std::size_t>(v)] = 1;
+    cells.point_fields.push_back({part.name, 1, std::move(on_part), {}, {}});
+  }
+  return cells;
 }
 
 template <int dim>
@@ -184,7 +256,7 @@ HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : ou
   if (newton_) titles_.insert(titles_.end(), {"iterations", "residual", "cuts"});
   if (output_.condition_numbers) titles_.push_back("condition number [-]");
   if (output_.critical_time_step) titles_.push_back("critical time step [s]");
-  removal_ = c.grid.leaving == Leaving::remove;
+  removal_ = leaving(c.grid) == Leaving::remove;
   if (removal_) titles_.push_back("points removed");
 }
 

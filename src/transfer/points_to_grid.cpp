@@ -6,14 +6,15 @@ namespace wisp {
 
 namespace {
 
-/// The record of a point: mass, momentum, force.
+/// The record of a point: mass, momentum, force. Not returned: how depends on the registers of the machine.
 template <int dim>
-inline Record<sums_stride<dim>> point_record(double mass, const double* momentum, const double* force) {
+inline void set_record(Record<sums_stride<dim>>& r, double mass, const double* momentum,
+                       const double* force) {
   if constexpr (dim == 2)
-    return Record<sums_stride<dim>>{mass, momentum[0], momentum[1], force[0], force[1], 0.0, 0.0, 0.0};
+    r = Record<sums_stride<dim>>{mass, momentum[0], momentum[1], force[0], force[1], 0.0, 0.0, 0.0};
   else
-    return Record<sums_stride<dim>>{mass,     momentum[0], momentum[1], momentum[2],
-                                    force[0], force[1],    force[2],    0.0};
+    r = Record<sums_stride<dim>>{mass,     momentum[0], momentum[1], momentum[2],
+                                 force[0], force[1],    force[2],    0.0};
 }
 
 /// dF = I + dt sum_i v_i (x) grad phi_i of a motion that the stress has followed.
@@ -55,7 +56,7 @@ __attribute__((flatten)) void add_points(const Basis& basis, const Space<dim>& s
       if constexpr (forces) weight[d] = m * gravity[d];
     });
     RecordAndGradient<dim, sums_stride<dim>> r;
-    r.value = point_record<dim>(inertia ? m : 0.0, momentum, weight);
+    set_record<dim>(r.value, inertia ? m : 0.0, momentum, weight);
     if constexpr (forces) {
       const double minus_volume = -volume[p];
       const Sym<dim>& tau = state[p].stress;
@@ -66,7 +67,7 @@ __attribute__((flatten)) void add_points(const Basis& basis, const Space<dim>& s
         double force[dim];
         for_short<dim>(
             [&](int d) { force[d] = minus_volume * (follow ? pulled(d, e) : tau[component<dim>(d, e)]); });
-        r.gradient[e] = point_record<dim>(0.0, zero, force);
+        set_record<dim>(r.gradient[e], 0.0, zero, force);
       });
     }
     add.template add<forces>(stencil, r);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "verification/implicit_boundary/list.h"
@@ -28,6 +29,8 @@ double sag(double angle, double h, WallMode mode, bool gimp) {
   return mean_displacement(solve(o), square)[1];
 }
 
+/// The literal form locks, the more the coarser the grid, and where slivers make it singular its answer is
+/// noise, which the picture leaves out.
 std::vector<VerificationRow> clamped(const VerificationRequest& request) {
   std::vector<VerificationRow> rows;
   FigureColumn angle{"angle [degrees]", {}};
@@ -36,24 +39,28 @@ std::vector<VerificationRow> clamped(const VerificationRequest& request) {
     const char* name;
     WallMode mode;
     bool gimp;
+    double h;
   };
   std::vector<FigureColumn> columns{angle};
-  for (const Form& form :
-       {Form{"consistent", WallMode::consistent, false}, Form{"consistent, GIMP", WallMode::consistent, true},
-        Form{"literal, delta = 1e-6 h", WallMode::literal, false}}) {
+  for (const Form& form : {Form{"consistent, h = 2.5 mm", WallMode::consistent, false, 2.5},
+                           Form{"consistent, GIMP, h = 2.5 mm", WallMode::consistent, true, 2.5},
+                           Form{"consistent, h = 10 mm", WallMode::consistent, false, 10.0},
+                           Form{"literal, h = 2.5 mm", WallMode::literal, false, 2.5},
+                           Form{"literal, h = 10 mm", WallMode::literal, false, 10.0}}) {
     FigureColumn column{form.name, {}};
     double upright = 0.0, worst = 0.0;
     for (const double a : angle.values) {
-      const double u = sag(a, 2.5, form.mode, form.gimp);
+      const double u = sag(a, form.h, form.mode, form.gimp);
       if (a == 0.0) upright = u;
-      column.values.push_back(u / upright);
-      worst = std::max(worst, std::abs(u / upright - 1.0));
+      const double ratio = u / upright;
+      worst = std::max(worst, std::abs(ratio - 1.0));
+      column.values.push_back(ratio > 0.5 && ratio < 1.5 ? ratio : std::numeric_limits<double>::quiet_NaN());
     }
     VerificationRow row;
-    row.case_name = std::string(form.name) + ", h = 2.5 mm, 0 to 45 degrees";
+    row.case_name = std::string(form.name) + ", 0 to 45 degrees";
     row.quantity = "greatest change of the mean sag with the angle";
     row.computed = worst;
-    if (form.mode == WallMode::consistent) row.gated = true, row.verdict = worst < 0.005;
+    if (form.mode == WallMode::consistent && form.h == 2.5) row.gated = true, row.verdict = worst < 0.005;
     rows.push_back(row);
     columns.push_back(column);
   }
