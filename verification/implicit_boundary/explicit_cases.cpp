@@ -205,7 +205,7 @@ double critical_number(const Variant& variant, bool with_wall) {
     Scene scene = block(variant, 30.0, 0.6, 0.4, modulus);
     if (with_wall) {
       wall(scene, 0.3);
-      add_gravity(scene, {0.0, -1.0}, Curve(1.0));
+      add_gravity(scene, -scene.up, Curve(1.0));  // it stays where it is, however long the steps are
     }
     // Vibrations along the normal at a strain of some 1e-3.
     const Mat<2> gradient = 0.05 * scene.up * scene.up.transpose();
