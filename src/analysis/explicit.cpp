@@ -23,8 +23,9 @@ template <int dim>
 Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
     : model_(model),
       options_(options),
-      consistent_(options.mass == Mass::consistent),
-      solver_(mass_solver_options(model.options.solver)) {
+      consistent_(options.mass != Mass::lumped),
+      equation_({options.mass, options.fmpm_order, options.deactivate_below},
+                mass_solver_options(model.options.solver)) {
   if (options.velocity_update == VelocityUpdate::apic)
     for (auto& body : model_.bodies)
       if (body.points.affine.empty())
@@ -36,7 +37,7 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
 
 template <int dim>
 void Explicit<dim>::renew_solver() {
-  solver_ = MassSolver(mass_solver_options(model_.options.solver));
+  equation_.renew();
 }
 
 template <int dim>
@@ -80,19 +81,36 @@ void Explicit<dim>::assemble_mass() {
   const ActiveCells cells = active_cells(space, model_.bodies);
   std::vector<GhostFacet> facets;
   const auto& ghost = model_.options.stabilisation;
-  if (ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.conditions));
+  // A series of the mass converges without a penalty, not with one.
+  const bool with_ghost = ghost && options_.mass == Mass::consistent;
+  if (with_ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.conditions));
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);
   mass_.end_pattern();
   add_consistent_mass(space, model_.bodies, mass_);
-  if (ghost) add_ghost(space, facets, *ghost, GhostMatrix::mass, mass_);
+  if (with_ghost) add_ghost(space, facets, *ghost, GhostMatrix::mass, mass_);
   std::vector<char> active = active_functions(space, cells);
   for (std::size_t i = 0; i < active.size(); ++i)
-    if (!ghost && sums_[i * sums_stride<dim>] <= 0.0) active[i] = 0;
-  solver_.set_matrix(
-      mass_, space.nodes(), dim, active,
-      model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>());
+    if (!with_ghost && sums_[i * sums_stride<dim>] <= 0.0) active[i] = 0;
+  std::vector<double> lumped(active.size());
+  for (std::size_t i = 0; i < active.size(); ++i) lumped[i] = sums_[i * sums_stride<dim>];
+  std::vector<char> boundary;
+  if (options_.mass == Mass::partial) boundary = boundary_functions(space, cells);
+  equation_.set_matrix(
+      mass_, space.nodes(), dim, std::move(active),
+      model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>(),
+      std::move(lumped), boundary);
+}
+
+/// Velocities that conditions prescribe at time t.
+template <int dim>
+void Explicit<dim>::prescribe(double t, std::vector<double>& velocity) const {
+  const auto& constraints = model_.constraints;
+  for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
+    if (constraints.fixed[k])
+      velocity[k] =
+          model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t - dt_, dt_);
 }
 
 /// Velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition holds, as at time
@@ -102,26 +120,20 @@ void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   velocity.resize(n * dim, 0.0);
   const auto& constraints = model_.constraints;
-  const auto prescribe = [&] {
-    for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-      if (constraints.fixed[k])
-        velocity[k] =
-            model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t - dt_, dt_);
-  };
   if (!consistent_) {
     for (std::size_t i = 0; i < n; ++i) {
       const double* const s = sums_.data() + i * sums_stride<dim>;
       const double per_mass = s[0] > 0 ? 1.0 / s[0] : 0.0;
       for (std::size_t d = 0; d < dim; ++d) velocity[i * dim + d] = s[1 + d] * per_mass;
     }
-    if (constraints.any) prescribe();
+    if (constraints.any) prescribe(t, velocity);
     return;
   }
   right_side_.resize(n * dim);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t d = 0; d < dim; ++d) right_side_[i * dim + d] = sums_[i * sums_stride<dim> + 1 + d];
-  if (constraints.any) prescribe();
-  const SolveReport report = solver_.solve(right_side_, velocity);
+  if (constraints.any) prescribe(t, velocity);
+  const SolveReport report = equation_.solve(right_side_, velocity);
   if (!report.solved)
     run_error(
         "step {} at t = {:.6g} s: the velocity solve with the consistent mass failed ({}); add "
@@ -153,7 +165,7 @@ void Explicit<dim>::solve_acceleration(double dt) {
       acceleration_[k] = (condition.velocity(model_.time, dt) - velocity_[k]) / dt;
     }
   if (consistent_) {
-    const SolveReport report = solver_.solve(right_side_, acceleration_);
+    const SolveReport report = equation_.solve(right_side_, acceleration_);
     if (!report.solved)
       run_error(
           "step {} at t = {:.6g} s: the solve for the acceleration failed ({}); add [stabilisation], or use "
@@ -261,6 +273,23 @@ void Explicit<dim>::points(const PointUpdate& update) {
   for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
 }
 
+/// The second map: velocity of the points just found, by the functions and the mass of this step (de Koster
+/// et al. 2021; thesis, eq. 2.37).
+template <int dim>
+void Explicit<dim>::project_velocity(double dt) {
+  const auto timer = model_.timers.start(1);
+  gather(Gather::inertia);
+  // The solve starts from the velocity just found, not from an array that a resumed run would not have.
+  strain_velocity_.resize(velocity_.size());
+  for (std::size_t k = 0; k < velocity_.size(); ++k)
+    strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
+  solve_velocity(model_.time + dt, strain_velocity_);
+  if (options_.stress_update != StressUpdate::projected) return;
+  velocity_ = strain_velocity_;
+  for (std::size_t i = 0; i < velocity_.size() / dim; ++i)
+    for (std::size_t d = 0; d < dim; ++d) motion_[i * motion_stride<dim> + d] = strain_velocity_[i * dim + d];
+}
+
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
   dt_ = dt;
@@ -289,7 +318,14 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   {
     const auto timer = model_.timers.start(3);
-    solve_velocity(model_.time, velocity_);
+    const auto n = static_cast<std::size_t>(model_.space->n_functions()) * dim;
+    // The projected step needs no velocity at its start but for what asks for one; the last projection is at
+    // hand.
+    if (scheme != StressUpdate::projected || record || pic || options_.pic_fraction > 0 ||
+        options_.damping > 0 || velocity_.size() != n)
+      solve_velocity(model_.time, velocity_);
+    else
+      prescribe(model_.time, velocity_);
   }
   if (scheme == StressUpdate::usf) {
     PointUpdate strain = update;
@@ -312,25 +348,18 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     add_work(dt);
   }
   if (record) record_energy(*record);
-  for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
   update.motion = motion_;
   update.velocity = true;
-  if (scheme == StressUpdate::musl) {
+  const bool second_map = scheme == StressUpdate::musl || scheme == StressUpdate::projected;
+  if (second_map) {
     {
       const auto timer = model_.timers.start(4);
       points(update);
     }
-    {
-      const auto timer = model_.timers.start(1);
-      gather(Gather::inertia);
-      // The solve starts from the velocity just found, not from an array that a resumed run would not have.
-      strain_velocity_.resize(velocity_.size());
-      for (std::size_t k = 0; k < velocity_.size(); ++k)
-        strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
-      solve_velocity(model_.time + dt, strain_velocity_);
-    }
+    project_velocity(dt);
     update.velocity = false, update.strain_velocity = strain_velocity_;
   }
+  for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
   update.move = true;
   update.strain = scheme != StressUpdate::usf;
   {

@@ -3,8 +3,8 @@
 #include "analysis/model.h"
 #include "analysis/options.h"
 #include "analysis/record.h"
-#include "linear/mass_solver.h"
 #include "stabilise/ghost.h"
+#include "stabilise/mass_equation.h"
 #include "transfer/explicit_transfer.h"
 
 namespace wisp {
@@ -41,6 +41,7 @@ class Explicit {
  private:
   void gather(Gather what);
   void assemble_mass();
+  void prescribe(double t, std::vector<double>& velocity) const;
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
@@ -48,6 +49,7 @@ class Explicit {
   void record_energy(EnergyRecord& record) const;
   void add_work(double dt);
   void points(const PointUpdate& update);
+  void project_velocity(double dt);
 
   Model<dim>& model_;
   ExplicitOptions options_;
@@ -57,7 +59,7 @@ class Explicit {
   std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_,
       inertia_;
   BlockMatrix mass_{1};
-  MassSolver solver_;
+  MassEquation equation_;
 };
 
 }  // namespace wisp

@@ -4,19 +4,17 @@
 #include <variant>
 
 #include "core/describe.h"
+#include "stabilise/mass_options.h"
 
 namespace wisp {
 
-enum class Mass { lumped, consistent };
-template <>
-inline constexpr auto choices<Mass> = choice_list<Mass>({{"lumped", Mass::lumped},
-                                                         {"consistent", Mass::consistent}});
-
-enum class StressUpdate { usf, usl, musl };
+enum class StressUpdate { usf, usl, musl, projected };
 template <>
 inline constexpr auto choices<StressUpdate> = choice_list<StressUpdate>({{"usf", StressUpdate::usf},
                                                                          {"usl", StressUpdate::usl},
-                                                                         {"musl", StressUpdate::musl}});
+                                                                         {"musl", StressUpdate::musl},
+                                                                         {"projected",
+                                                                          StressUpdate::projected}});
 
 enum class VelocityUpdate { flip, pic, apic };
 template <>
@@ -30,15 +28,19 @@ struct ExplicitOptions {
   std::optional<double> dt;
   double cfl = 0.5;
   Mass mass = Mass::lumped;
+  int fmpm_order = 4;
+  double deactivate_below = 0.0;
   StressUpdate stress_update = StressUpdate::usl;
   VelocityUpdate velocity_update = VelocityUpdate::flip;
   double pic_fraction = 0.0;
   double damping = 0.0;
 
   static constexpr std::string_view name = "explicit";
-  static constexpr std::string_view summary = "Explicit dynamics, Euler-Cromer, lumped or consistent mass";
+  static constexpr std::string_view summary =
+      "Explicit dynamics, Euler-Cromer; lumped, consistent or approximately consistent mass";
   static constexpr std::string_view source =
-      "Coombs 2023, eq. 4-11; Bardenhagen 2002; Jiang et al. 2015 (APIC)";
+      "Coombs 2023, eq. 4-11; Bardenhagen 2002; Jiang et al. 2015 (APIC); de Koster et al. 2021 (projected, "
+      "partial); Nairn and Hammerquist 2021 (FMPM)";
   static constexpr auto keys() {
     using O = ExplicitOptions;
     return std::tuple{
@@ -49,9 +51,17 @@ struct ExplicitOptions {
             "without steps and dt: time step over (shortest cell side / (wave speed + point speed))")
             .positive(),
         key("mass", &O::mass, "",
-            "lumped mass, or consistent mass (Ghost-stabilised if [stabilisation] is given)"),
+            "lumped; consistent (Ghost-stabilised if [stabilisation] is given); partial: consistent, but "
+            "lumped at "
+            "functions of a populated and an empty cell; fmpm: series towards the consistent mass"),
+        key("fmpm_order", &O::fmpm_order, "-", "only fmpm: terms of the series; 1 is lumping").at_least(1),
+        key("deactivate_below", &O::deactivate_below, "kg",
+            "not lumped: functions with a smaller diagonal of the mass matrix take no part (0: all do)")
+            .at_least(0),
         key("stress_update", &O::stress_update, "",
-            "stress first (usf), last (usl), or last after a second map of velocities (musl)"),
+            "stress first (usf), last (usl), or last after a second map of velocities (musl), which may also "
+            "move "
+            "the points and then is the only one (projected)"),
         key("velocity_update", &O::velocity_update, "", "how points get their velocity from the grid"),
         key("pic_fraction", &O::pic_fraction, "-", "blend: this share of PIC in the FLIP update")
             .at_least(0)

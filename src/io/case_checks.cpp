@@ -259,11 +259,11 @@ class Checks {
     if (!case_.stabilisation) return;
     if (context_.given("stabilisation.scale") && case_.stabilisation->units != GhostUnits::paper)
       context_.fail_at("stabilisation.scale", "only for units = \"paper\"");
-    const auto lumped = [](const AnyStage& stage) {
+    const auto without = [](const AnyStage& stage) {
       const auto* e = std::get_if<ExplicitOptions>(&stage);
-      return e && e->mass == Mass::lumped;
+      return e && e->mass != Mass::consistent;
     };
-    if (std::all_of(case_.stages.begin(), case_.stages.end(), lumped))
+    if (std::all_of(case_.stages.begin(), case_.stages.end(), without))
       context_.fail_at("stabilisation", "no stage uses it: explicit stages do with mass = \"consistent\"");
   }
 
