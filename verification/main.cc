@@ -9,7 +9,9 @@ int main(int argc, char** argv) {
   wisp::use_one_blas_thread(argv);
   wisp::Engine engine;
   engine.run = [](const wisp::Case& c, const std::filesystem::path& folder) { wisp::run_case(c, folder); };
-  engine.resume = [](const std::filesystem::path& folder) { wisp::resume_run(folder); };
+  engine.resume = [](const std::filesystem::path& folder, const std::vector<std::string>& changes) {
+    wisp::resume_run(folder, changes);
+  };
   engine.bench = wisp::bench;
   engine.tables = wisp::verification_tables();
   return wisp::program(argc, argv, engine);

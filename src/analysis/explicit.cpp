@@ -65,13 +65,13 @@ double Explicit<dim>::time_step(double end) const {
 }
 
 template <int dim>
-void Explicit<dim>::gather(Gather what) {
+void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   sums_.assign(n * sums_stride<dim>, 0.0);
   const Vec<dim> gravity = model_.gravity(model_.time);
   for (const auto& body : model_.bodies)
     points_to_grid<dim>(*model_.space, body, what, gravity, options_.velocity_update == VelocityUpdate::apic,
-                        sums_);
+                        sums_, followed);
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
@@ -83,7 +83,7 @@ void Explicit<dim>::assemble_mass() {
   const auto& ghost = model_.options.stabilisation;
   // A series of the mass converges without a penalty, not with one.
   const bool with_ghost = ghost && options_.mass == Mass::consistent;
-  if (with_ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.conditions));
+  if (with_ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries));
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);
@@ -105,12 +105,11 @@ void Explicit<dim>::assemble_mass() {
 
 /// Velocities that conditions prescribe at time t.
 template <int dim>
-void Explicit<dim>::prescribe(double t, std::vector<double>& velocity) const {
-  const auto& constraints = model_.constraints;
+void Explicit<dim>::prescribe(double t, std::vector<double>& velocity) {
+  auto& constraints = model_.constraints;
+  set_velocities(model_.boundaries, t - dt_, dt_, constraints);
   for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-    if (constraints.fixed[k])
-      velocity[k] =
-          model_.conditions[static_cast<std::size_t>(constraints.condition[k])].velocity(t - dt_, dt_);
+    if (constraints.fixed[k]) velocity[k] = constraints.prescribed(k);
 }
 
 /// Velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition holds, as at time
@@ -144,7 +143,7 @@ void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
 template <int dim>
 void Explicit<dim>::solve_acceleration(double dt) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
-  const auto& constraints = model_.constraints;
+  auto& constraints = model_.constraints;
   acceleration_.resize(n * dim, 0.0);
   right_side_.resize(n * dim);
   for (std::size_t i = 0; i < n; ++i)
@@ -159,11 +158,9 @@ void Explicit<dim>::solve_acceleration(double dt) {
                                            : 0.0);
       right_side_[i * dim + d] = f;
     }
+  if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
   for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-    if (constraints.fixed[k]) {
-      const auto& condition = model_.conditions[static_cast<std::size_t>(constraints.condition[k])];
-      acceleration_[k] = (condition.velocity(model_.time, dt) - velocity_[k]) / dt;
-    }
+    if (constraints.fixed[k]) acceleration_[k] = (constraints.prescribed(k) - velocity_[k]) / dt;
   if (consistent_) {
     const SolveReport report = equation_.solve(right_side_, acceleration_);
     if (!report.solved)
@@ -193,7 +190,7 @@ void Explicit<dim>::set_motion(double dt) {
       motion_[i * motion_stride<dim> + d] = velocity_[i * dim + d] + dt * acceleration_[i * dim + d];
       motion_[i * motion_stride<dim> + dim + d] = acceleration_[i * dim + d];
     }
-  if (model_.conditions.empty()) return;
+  if (!model_.constraints.any) return;
   // R = M a - f at held unknowns.
   if (consistent_) {
     inertia_.resize(n * dim);
@@ -270,6 +267,7 @@ void Explicit<dim>::add_work(double dt) {
 
 template <int dim>
 void Explicit<dim>::points(const PointUpdate& update) {
+  points_changed_ = true;
   for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
 }
 
@@ -293,6 +291,7 @@ void Explicit<dim>::project_velocity(double dt) {
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
   dt_ = dt;
+  points_changed_ = false;
   const StressUpdate scheme = options_.stress_update;
   const bool pic = options_.velocity_update != VelocityUpdate::flip;
   PointUpdate update;
@@ -336,9 +335,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
       points(strain);
     }
     const auto timer = model_.timers.start(1);
-    // Domains follow the stretch, so the functions have changed; forces and masses of a step must share
-    // theirs.
-    gather(Gather::both);
+    gather(Gather::both, {velocity_, dt});
   }
   {
     const auto timer = model_.timers.start(3);
@@ -359,6 +356,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     project_velocity(dt);
     update.velocity = false, update.strain_velocity = strain_velocity_;
   }
+  points_changed_ |= !model_.tractions.empty();
   for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
   update.move = true;
   update.strain = scheme != StressUpdate::usf;
@@ -370,6 +368,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   model_.time += dt;
   ++model_.step;
+  points_changed_ = false;
 }
 
 template class Explicit<2>;

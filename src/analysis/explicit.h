@@ -35,13 +35,15 @@ class Explicit {
   /// Warm starts that a resumed run needs for the same bits.
   std::vector<double>& warm_acceleration() { return acceleration_; }
   std::vector<double>& warm_velocity() { return velocity_; }
+  /// Whether a step that failed had changed points already; otherwise the state before it stands.
+  bool points_changed() const { return points_changed_; }
   /// Drops what the solver keeps between steps, as in a run that starts here.
   void renew_solver();
 
  private:
-  void gather(Gather what);
+  void gather(Gather what, const FollowedMotion& followed = {});
   void assemble_mass();
-  void prescribe(double t, std::vector<double>& velocity) const;
+  void prescribe(double t, std::vector<double>& velocity);
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
@@ -55,6 +57,7 @@ class Explicit {
   ExplicitOptions options_;
   bool consistent_;
   double dt_ = 0.0;  // of the running step
+  bool points_changed_ = false;
   // Arrays over functions; see explicit_transfer.h for the records.
   std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_,
       inertia_;

@@ -93,7 +93,7 @@ void Implicit<dim>::set_up(double dt) {
   const auto timer = model_.timers.start("2 ghost matrix");
   const auto& options = model_.options.stabilisation;
   std::vector<GhostFacet> facets;
-  if (options) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.conditions));
+  if (options) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries));
   ghost_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, ghost_);
   add_ghost_pattern(space, facets, ghost_);
@@ -108,10 +108,9 @@ void Implicit<dim>::set_up(double dt) {
   }
   number_unknowns();
   prescribed_.assign(n * dim, 0.0);
+  set_increments(model_.boundaries, model_.time, dt, model_.constraints);
   for (std::size_t k = 0; k < model_.constraints.fixed.size(); ++k)
-    if (model_.constraints.fixed[k] && active_[k / dim])
-      prescribed_[k] = model_.conditions[static_cast<std::size_t>(model_.constraints.condition[k])].increment(
-          model_.time, dt);
+    if (model_.constraints.fixed[k] && active_[k / dim]) prescribed_[k] = model_.constraints.prescribed(k);
   reaction_.assign(n * dim, 0.0);
   evaluations_ = 0;
 }
@@ -179,19 +178,19 @@ void Implicit<dim>::start_inertia(double dt) {
     space.nodes().add_update(right.data(), dim);
     result.assign(n * dim, 0.0);
     for (std::size_t k = 0; k < model_.constraints.fixed.size(); ++k)
-      if (model_.constraints.fixed[k] && active_[k / dim])
-        result[k] = prescribe(model_.conditions[static_cast<std::size_t>(model_.constraints.condition[k])]);
+      if (model_.constraints.fixed[k] && active_[k / dim]) result[k] = prescribe(k);
     const SolveReport report = solver.solve(right, result);
     if (!report.solved)
       run_error("step {} at t = {:.6g} s: the consistent mass cannot be solved ({}); add [stabilisation]",
                 model_.step, model_.time, report.cause);
   };
+  set_velocities(model_.boundaries, model_.time - dt, dt, model_.constraints);
   map(
       [](const auto& points) -> const auto& { return points.velocity; }, velocity_,
-      [&](const auto& condition) { return condition.velocity(model_.time - dt, dt); });
+      [&](std::size_t k) { return model_.constraints.prescribed(k); });
   map(
       [](const auto& points) -> const auto& { return points.acceleration; }, acceleration_,
-      [](const auto&) { return 0.0; });
+      [](std::size_t) { return 0.0; });
   // What the momentum at the start would take to stop in the step: forces are differences of terms of this
   // size, so it belongs to the scale of the residual, or nothing converges when all forces pass through zero.
   std::vector<double> inertia(n * dim);
@@ -317,10 +316,12 @@ void Implicit<dim>::finish(std::span<const double> u, double dt) {
   }
   model_.external_work += Session::sum(work);
   for (auto& r : model_.reactions) r = Session::sum(r);
+  points_changed_ = true;
   for (auto& traction : model_.tractions) traction.move(space, u, dim, 1.0);
   if (newmark_) update_velocities(u, dt);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) commit(stencils_[b], model_.bodies[b], u);
   model_.time += dt;
+  points_changed_ = false;
 }
 
 template <int dim>
@@ -355,10 +356,10 @@ void Implicit<dim>::advance(double dt, int cuts_left, ImplicitRecord& record) {
   std::string residuals;
   for (const double r : report.residuals)
     residuals += fmt::format("{}{:.3e}", residuals.empty() ? "" : ", ", r);
-  throw StepRefused(fmt::format(
+  run_error(
       "step {} at t = {:.6g} s did not converge: {} (residuals {}); try more steps, cuts = 5, line_search = "
       "true, or [stabilisation]",
-      model_.step + 1, model_.time, report.cause, residuals));
+      model_.step + 1, model_.time, report.cause, residuals);
 }
 
 template <int dim>

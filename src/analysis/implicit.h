@@ -31,6 +31,9 @@ class Implicit {
   /// One step, halved up to `cuts` times where Newton fails. Errors (RunError): it fails all the same.
   ImplicitRecord step(double dt, EnergyRecord* record = nullptr);
 
+  /// Whether a step that failed had begun to move points; otherwise the state that `model` tells of stands
+  /// (of a step that was cut: what has been done of it).
+  bool points_changed() const { return points_changed_; }
   /// Drops what the solver keeps between steps, as in a run that starts here.
   void renew_solver();
 
@@ -62,6 +65,7 @@ class Implicit {
   NewtonOptions newton_;
   std::optional<Newmark> newmark_;
   int evaluations_ = 0;
+  bool points_changed_ = false;
   double inertia_scale_ = 0.0;  // N
 
   std::vector<StoredStencils<dim>> stencils_;

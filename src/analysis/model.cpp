@@ -22,48 +22,43 @@ MultiIndex<dim> cell_of(const StructuredGrid<dim>& grid, const Vec<dim>& x) {
   return cell;
 }
 
-/// The cells of every size()-th point, so that all ranks together list each point of a replicated list once.
-template <int dim>
-std::vector<MultiIndex<dim>> share_of_cells(const StructuredGrid<dim>& grid,
-                                            const std::vector<Body<dim>>& bodies) {
-  std::vector<MultiIndex<dim>> cells;
-  for (const auto& body : bodies)
-    for (std::size_t p = static_cast<std::size_t>(Session::rank()); p < body.points.position.size();
-         p += static_cast<std::size_t>(Session::size()))
-      cells.push_back(cell_of(grid, body.points.position[p]));
-  return cells;
-}
-
 }  // namespace
 
 template <int dim>
 Model<dim>::Model(const ModelOptions& given) : options(given) {
   const StructuredGrid<dim> grid(options.grid);
   const bool domains = std::holds_alternative<GimpOptions>(options.basis);
-  std::int64_t id = 0;
+  std::vector<Sampler<dim>> samplers;
+  std::vector<MultiIndex<dim>> cells;
   for (const auto& body : options.bodies) {
-    bodies.push_back(sample<dim>(body, grid, domains, id, options.folder));
-    id += bodies.back().points.size();
+    const auto& share = samplers.emplace_back(body, grid, options.folder).share();
+    cells.insert(cells.end(), share.begin(), share.end());
   }
-  const auto cells = share_of_cells(grid, bodies);
   space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), domains);
+  std::int64_t id = 0;
+  for (const auto& sampler : samplers) {
+    bodies.push_back(sampler.points(space->window().owned_cells(), domains, id));
+    id += sampler.count();
+  }
   keep_owned();
-  for (const auto& o : options.boundaries) conditions.emplace_back(o, *space);
-  constraints = Constraints<dim>(conditions, space->n_functions());
+  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space));
+  constraints = constraints_of(boundaries, space->n_functions());
   for (const auto& o : options.loads) loads.emplace_back(o, bodies);
   for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
-  reactions.assign(conditions.size(), Vec<dim>::Zero());
+  reactions.assign(boundaries.size(), Vec<dim>::Zero());
   settle();
 }
 
 template <int dim>
 void Model<dim>::keep_owned() {
   for (auto& body : bodies) {
-    locate(body.points, space->grid(), space->window());
+    const Location found = locate(body.points, space->grid(), space->window());
+    const int outside = Session::rank() == 0 ? -1 : 0;  // rank 0 keeps those too
     std::vector<char> gone(body.points.cell.size());
-    for (std::size_t p = 0; p < gone.size(); ++p) gone[p] = body.points.cell[p] < 0;
+    for (std::size_t p = 0; p < gone.size(); ++p)
+      gone[p] = body.points.cell[p] < 0 && body.points.cell[p] != outside;
     remove(body, gone);
-    reorder(body, space->window().n_cells());
+    if (found.outside == 0 || Session::rank() != 0) reorder(body, space->window().n_cells());
   }
 }
 
@@ -186,7 +181,15 @@ void Model<dim>::choose_width() {
   }
   if (std::visit([](const auto& basis) { return basis.width; }, space->basis()) != (narrow ? 3 : 5))
     space->set_width(narrow ? 3 : 5);
-  if (wide) return;
+  std::string fault;
+  if (!wide) fault = oversized_domain();
+  Session::raise_together(fault);
+}
+
+/// Words about a point whose domain covers more cells than a stencil has; none if there is no such point.
+template <int dim>
+std::string Model<dim>::oversized_domain() const {
+  const StructuredGrid<dim>& grid = space->grid();
   // The shortest cell is too short for the longest domain; but they may be far apart.
   for (const auto& body : bodies)
     for (std::size_t p = 0; p < body.points.position.size(); ++p)
@@ -194,12 +197,13 @@ void Model<dim>::choose_width() {
         const double x = body.points.position[p][d], l = body.points.half_length[p][d];
         const int c = grid.locate(d, x), first = grid.locate(d, x - l), last = grid.locate(d, x + l);
         if (!(std::isfinite(l)) || last - first > 3 || c - first > 2 || last - c > 2)
-          run_error(
+          return fmt::format(
               "step {} at t = {:.6g} s: the domain of point {} of '{}' has grown to {:.4g} m in direction {} "
               "and covers more "
               "than four cells; use larger cells, smaller domains (more points), or linear functions",
               step, time, body.points.id[p], body.name, 2 * l, "xyz"[d]);
       }
+  return {};
 }
 
 template <int dim>
@@ -224,9 +228,11 @@ template <int dim>
 void Model<dim>::make_space(const BoxPartition<dim>& partition) {
   const StructuredGrid<dim> grid = space->grid();
   space = std::make_unique<Space<dim>>(grid, partition, space->domains());
-  conditions.clear();
-  for (const auto& o : options.boundaries) conditions.emplace_back(o, *space);
-  constraints = Constraints<dim>(conditions, space->n_functions());
+  // Walls keep what they carry; conforming conditions find their functions anew.
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    if (const auto* o = std::get_if<ConformingOptions>(&options.boundaries[k]))
+      boundaries[k] = make_boundary<dim>(*o, *space);
+  constraints = constraints_of(boundaries, space->n_functions());
 }
 
 template struct Model<2>;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "basis/space.h"
-#include "boundary/conforming.h"
+#include "boundary/list.h"
 #include "boundary/loads.h"
 #include "core/timers.h"
 #include "linear/solver.h"
@@ -22,7 +22,7 @@ struct ModelOptions {
   StructuredGridOptions grid;
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
-  std::vector<ConformingOptions> boundaries;
+  std::vector<AnyBoundaryOptions> boundaries;
   std::vector<PointLoadOptions> loads;
   std::vector<TractionOptions> tractions;
   std::optional<GravityOptions> gravity;
@@ -34,14 +34,14 @@ struct ModelOptions {
 /// A run on this rank. Plain members: analyses change them, output reads them.
 template <int dim>
 struct Model {
-  /// Samples the bodies, splits the grid by their points and keeps this rank's. Collective. Errors:
+  /// Splits the grid by the points of the bodies and samples those of this rank. Collective. Errors:
   /// InputError.
   explicit Model(const ModelOptions& options);
 
   ModelOptions options;
   std::unique_ptr<Space<dim>> space;
   std::vector<Body<dim>> bodies;
-  std::vector<Conforming<dim>> conditions;
+  std::vector<AnyBoundary<dim>> boundaries;
   Constraints<dim> constraints;
   std::vector<PointLoad<dim>> loads;
   std::vector<Traction<dim>> tractions;
@@ -54,7 +54,7 @@ struct Model {
   std::int64_t step = 0;            ///< finished steps, over all stages
   std::int64_t removed = 0;         ///< points removed because they left the grid, all ranks
   double external_work = 0.0;       ///< J, of body forces, loads and prescribed motion, all ranks
-  std::vector<Vec<dim>> reactions;  ///< N, one a condition, all ranks, of the last step
+  std::vector<Vec<dim>> reactions;  ///< N, on the bodies, one a boundary, all ranks, of the last step
   Timers timers;
 
   Vec<dim> gravity(double t) const;
@@ -73,13 +73,15 @@ struct Model {
   bool rebalance();
   /// Splits the grid in the given way. Points stay where they are: see `keep_owned`, `settle`.
   void make_space(const BoxPartition<dim>& partition);
-  /// Of points that every rank has, keeps those of this rank's cells, in cell order.
+  /// Of points that every rank has, keeps those of this rank's cells, in cell order; points outside the grid
+  /// stay on rank 0, for `settle`.
   void keep_owned();
 
  private:
   void remove_outside(std::size_t outside);
   void migrate();
   void choose_width();
+  std::string oversized_domain() const;
 };
 
 }  // namespace wisp

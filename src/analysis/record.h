@@ -6,13 +6,6 @@
 
 namespace wisp {
 
-/// A step that all ranks together could not do. The state at its start stands (of a step that was cut: what
-/// has been done of it), so a run may keep it.
-class StepRefused : public RunError {
- public:
-  using RunError::RunError;
-};
-
 /// Energies of all ranks. In explicit steps at the time level of the forces: kinetic energy of the points'
 /// velocities at the start of the step, strain energy and dissipation of the stress used for the forces. The
 /// grid sees less kinetic energy than the points carry (v^T M v / 2 of the start-of-step nodal velocity with

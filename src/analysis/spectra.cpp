@@ -42,7 +42,7 @@ ExplicitSpectrum<dim>::ExplicitSpectrum(Model<dim>& model, Mass mass)
       space.nodes(), dim, active,
       model.constraints.any ? std::span<const char>(model.constraints.fixed) : std::span<const char>());
   std::vector<GhostFacet> facets;
-  if (consistent_ && ghost) facets = ghost_facets(space, cells, model.bodies, held_edges(model.conditions));
+  if (consistent_ && ghost) facets = ghost_facets(space, cells, model.bodies, held_edges(model.boundaries));
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);

@@ -20,7 +20,7 @@ struct Engine {
   /// Runs a case with its results in a folder. Called on every rank, within a Session.
   std::function<void(const Case&, const std::filesystem::path& folder)> run;
   /// Goes on from the newest checkpoint in a folder. Called on every rank, within a Session.
-  std::function<void(const std::filesystem::path& folder)> resume;
+  std::function<void(const std::filesystem::path& folder, const std::vector<std::string>& changes)> resume;
   /// Measures speed; `points` is the number of points of its largest case.
   std::function<void(int points)> bench;
   std::vector<VerificationTable> tables;

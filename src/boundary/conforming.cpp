@@ -100,23 +100,7 @@ double Conforming<dim>::velocity(double t, double dt) const {
   return dt > 0 ? increment(t, dt) / dt : 0.0;
 }
 
-template <int dim>
-Constraints<dim>::Constraints(const std::vector<Conforming<dim>>& conditions, int n_functions)
-    : fixed(static_cast<std::size_t>(n_functions) * dim, 0),
-      condition(static_cast<std::size_t>(n_functions) * dim, -1),
-      any(!conditions.empty()) {  // also on a rank that holds nothing: it must exchange like the others
-  for (std::size_t c = 0; c < conditions.size(); ++c)
-    for (const int i : conditions[c].functions())
-      for (int d = 0; d < dim; ++d)
-        if (conditions[c].holds(d)) {
-          const auto k = static_cast<std::size_t>(i * dim + d);
-          fixed[k] = 1, condition[k] = static_cast<int>(c);
-        }
-}
-
 template class Conforming<2>;
 template class Conforming<3>;
-template struct Constraints<2>;
-template struct Constraints<3>;
 
 }  // namespace wisp

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "basis/space.h"
+#include "boundary/constraints.h"
 #include "boundary/options.h"
 
 namespace wisp {
@@ -20,6 +21,11 @@ class Conforming {
   const std::string& name() const { return options_.label; }
   /// Local indices of the held functions, ghosts included.
   const std::vector<int>& functions() const { return functions_; }
+  void constrain(std::size_t index, Constraints<dim>& constraints) const {
+    for (const int i : functions_)
+      for (int d = 0; d < dim; ++d)
+        if (holds(d)) constraints.hold(i, d, index);
+  }
   bool holds(int direction) const { return holds_[static_cast<std::size_t>(direction)]; }
 
   /// Prescribed displacement (m) over a step from t to t + dt.
@@ -39,29 +45,5 @@ class Conforming {
   std::array<bool, dim> holds_{};
   std::array<bool, 2 * dim> edge_{};
 };
-
-/// Which unknowns are held, and by how much they move: arrays over (function, direction).
-template <int dim>
-struct Constraints {
-  std::vector<char> fixed;  ///< n_functions x dim flags
-  std::vector<int>
-      condition;  ///< n_functions x dim: index of the condition, -1 where free; the last one wins
-  bool any = false;
-
-  Constraints() = default;
-  Constraints(const std::vector<Conforming<dim>>& conditions, int n_functions);
-};
-
-/// Which edges of the grid the conditions hold: entry 2 d + side, side 0 the lower and 1 the upper edge of
-/// direction d.
-template <int dim>
-std::array<bool, 2 * dim> held_edges(const std::vector<Conforming<dim>>& conditions) {
-  std::array<bool, 2 * dim> held{};
-  for (const auto& condition : conditions)
-    for (int d = 0; d < dim; ++d)
-      for (int side = 0; side < 2; ++side)
-        held[static_cast<std::size_t>(2 * d + side)] |= condition.on_edge(d, side);
-  return held;
-}
 
 }  // namespace wisp

@@ -129,6 +129,11 @@ constexpr std::string_view choice_name(Enum value) {
   return "?";
 }
 
+/// Of a variant of described types: the alternative that is meant where a table has no key `type`, -1 if
+/// there must be one. Specialised beside the variant.
+template <class Variant>
+inline constexpr int default_alternative = -1;
+
 template <class T>
 concept Described = requires {
   { T::name } -> std::convertible_to<std::string_view>;

@@ -2,8 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "core/error.h"
@@ -35,19 +33,24 @@ CsvFile::CsvFile(const std::filesystem::path& path) : name_(path.string()) {
   if (!std::filesystem::exists(path, code)) input_error("{}: no such file", name_);
   if (std::filesystem::is_directory(path, code))
     input_error("{}: expected a CSV file, found a folder", name_);
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) input_error("{}: the file cannot be opened for reading", name_);
-  text_.assign(std::istreambuf_iterator<char>(stream), {});
-  if (stream.bad()) input_error("{}: the file cannot be read", name_);
-  if (text_.starts_with("\xef\xbb\xbf")) text_.erase(0, 3);
-  if (text_.find_first_not_of(" \t\r\n") == std::string::npos) input_error("{}: the file is empty", name_);
+  stream_.open(path, std::ios::binary);
+  if (!stream_) input_error("{}: the file cannot be opened for reading", name_);
+  const std::string_view mark = "\xef\xbb\xbf";
+  std::string start(mark.size(), ' ');
+  stream_.read(start.data(), static_cast<std::streamsize>(start.size()));
+  stream_.clear();
+  const std::streamoff first = start == mark ? static_cast<std::streamoff>(mark.size()) : 0;
+  stream_.seekg(first);
+  char c = '\0';
+  const bool empty = !(stream_ >> c);
+  if (stream_.bad()) input_error("{}: the file cannot be read", name_);
+  if (empty) input_error("{}: the file is empty", name_);
+  stream_.seekg(first);
 }
 
 bool CsvFile::next(CsvLine& line) {
-  while (position_ < text_.size()) {
-    const std::string_view rest = std::string_view(text_).substr(position_);
-    const std::string_view whole = rest.substr(0, rest.find('\n'));
-    position_ += whole.size() + 1;
+  while (std::getline(stream_, text_)) {
+    const std::string_view whole = text_;
     line.number = ++line_;
     line.cells.clear();
     const std::string_view content = trimmed(whole);
@@ -64,6 +67,7 @@ bool CsvFile::next(CsvLine& line) {
       begin = end + 1;
     }
   }
+  if (stream_.bad()) input_error("{}: the file cannot be read", name_);
   return false;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,17 +15,18 @@ struct CsvCell {
   int column = 1;
 };
 
-/// One line of a CSV file, counted from 1; a blank line has no cells. The cells point into the `CsvFile`.
+/// One line of a CSV file, counted from 1; a blank line has no cells. The cells point into the `CsvFile` and
+/// last until its next line is read.
 struct CsvLine {
   int number = 0;
   std::vector<CsvCell> cells;
 };
 
-/// A CSV file in memory. Cells are separated by commas and never quoted; lines that start with '#' are
-/// comments; both line endings and a UTF-8 byte order mark are accepted.
+/// A CSV file, read line by line. Cells are separated by commas and never quoted; lines that start with '#'
+/// are comments; both line endings and a UTF-8 byte order mark are accepted.
 class CsvFile {
  public:
-  /// Reads the whole file. Throws InputError if it is missing, not a regular file, unreadable or empty.
+  /// Throws InputError if the file is missing, not a regular file, unreadable or empty.
   explicit CsvFile(const std::filesystem::path& path);
   CsvFile(const CsvFile&) = delete;  // cells point into the text
   CsvFile& operator=(const CsvFile&) = delete;
@@ -45,8 +47,8 @@ class CsvFile {
 
  private:
   std::string name_;
-  std::string text_;
-  std::size_t position_ = 0;
+  std::ifstream stream_;
+  std::string text_;  // of the current line
   int line_ = 0;
 };
 

@@ -69,8 +69,9 @@ std::vector<std::size_t> read_header(const CsvFile& file, const CsvLine& header)
 }  // namespace
 
 template <int dim>
-PointTable<dim> read_points(const PointFile& points, const std::filesystem::path& folder) {
-  using Vector = typename PointTable<dim>::Vector;
+void for_each_point(const PointFile& points, const std::filesystem::path& folder,
+                    const std::function<void(const PointRow<dim>&)>& visit) {
+  using Vector = typename PointRow<dim>::Vector;
   if (points.file.empty()) input_error("points: 'file' is empty, expected the path of a CSV file");
   CsvFile file(folder / points.file);
   CsvLine line;
@@ -86,7 +87,7 @@ PointTable<dim> read_points(const PointFile& points, const std::filesystem::path
   const bool has_velocities = has(velocity_slot<dim>);
   const bool has_half_lengths = has(half_length_slot<dim>);
 
-  PointTable<dim> table;
+  bool any = false;
   std::array<double, 3 * dim + 1> row{};
   while (file.next(line)) {
     if (line.cells.empty()) continue;
@@ -103,16 +104,31 @@ PointTable<dim> read_points(const PointFile& points, const std::filesystem::path
         file.fail(line, line.cells[i],
                   fmt::format("column '{}': {} is negative", names[slot], shown(line.cells[i].text)));
     }
-    table.positions.push_back(Eigen::Map<const Vector>(row.data()));
-    table.volumes.push_back(row[volume_slot<dim>]);
-    if (has_velocities) table.velocities.push_back(Eigen::Map<const Vector>(row.data() + velocity_slot<dim>));
-    if (has_half_lengths)
-      table.half_lengths.push_back(Eigen::Map<const Vector>(row.data() + half_length_slot<dim>));
+    any = true;
+    PointRow<dim> point{Eigen::Map<const Vector>(row.data()), row[volume_slot<dim>], {}, {}};
+    if (has_velocities) point.velocity = Eigen::Map<const Vector>(row.data() + velocity_slot<dim>);
+    if (has_half_lengths) point.half_length = Eigen::Map<const Vector>(row.data() + half_length_slot<dim>);
+    visit(point);
   }
-  if (table.positions.empty()) input_error("{}: a header but no points", file.name());
+  if (!any) input_error("{}: a header but no points", file.name());
+}
+
+template <int dim>
+PointTable<dim> read_points(const PointFile& points, const std::filesystem::path& folder) {
+  PointTable<dim> table;
+  for_each_point<dim>(points, folder, [&](const PointRow<dim>& row) {
+    table.positions.push_back(row.position);
+    table.volumes.push_back(row.volume);
+    if (row.velocity) table.velocities.push_back(*row.velocity);
+    if (row.half_length) table.half_lengths.push_back(*row.half_length);
+  });
   return table;
 }
 
+template void for_each_point<2>(const PointFile&, const std::filesystem::path&,
+                                const std::function<void(const PointRow<2>&)>&);
+template void for_each_point<3>(const PointFile&, const std::filesystem::path&,
+                                const std::function<void(const PointRow<3>&)>&);
 template PointTable<2> read_points<2>(const PointFile&, const std::filesystem::path&);
 template PointTable<3> read_points<3>(const PointFile&, const std::filesystem::path&);
 

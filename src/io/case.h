@@ -9,6 +9,7 @@
 
 #include "analysis/options.h"
 #include "basis/options.h"
+#include "boundary/list.h"
 #include "boundary/options.h"
 #include "core/describe.h"
 #include "grid/structured_options.h"
@@ -35,7 +36,7 @@ struct Case {
   StructuredGridOptions grid;
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
-  std::vector<ConformingOptions> boundaries;
+  std::vector<AnyBoundaryOptions> boundaries;
   std::vector<PointLoadOptions> loads;
   std::vector<TractionOptions> tractions;
   std::optional<GravityOptions> gravity;
@@ -56,7 +57,7 @@ struct Case {
         key("grid", &Case::grid, "", "the background grid").required(),
         key("basis", &Case::basis, "", "the grid functions"),
         key("body", &Case::bodies, "", "bodies, each of one material").required(),
-        key("boundary", &Case::boundaries, "", "conditions on the motion of the grid"),
+        key("boundary", &Case::boundaries, "", "conditions on the motion of the grid, and walls"),
         key("load", &Case::loads, "", "forces on chosen points"),
         key("traction", &Case::tractions, "", "tractions and pressures on marked surfaces"),
         key("gravity", &Case::gravity, "", "body force per mass"),

@@ -26,13 +26,21 @@ std::string place(std::string_view list, std::size_t i, std::string_view key = {
   return fmt::format("{}[{}]{}{}", list, i, key.empty() ? "" : ".", key);
 }
 
+template <class T>
+const std::string& label_of(const T& entry) {
+  if constexpr (reader::is_variant<T>)
+    return std::visit([](const auto& e) -> const std::string& { return e.label; }, entry);
+  else
+    return entry.label;
+}
+
 /// Names within a list of tables are unique.
 template <class T>
 void check_unique(const std::vector<T>& list, std::string_view name, const Context& context) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (!seen.insert(list[i].label).second)
-      context.fail_at(place(name, i, "name"), fmt::format("the name \"{}\" is taken already", list[i].label));
+    if (const std::string& label = label_of(list[i]); !seen.insert(label).second)
+      context.fail_at(place(name, i, "name"), fmt::format("the name \"{}\" is taken already", label));
 }
 
 /// A list of vectors with one component per direction.
@@ -180,7 +188,8 @@ class Checks {
 
   void boundaries() {
     check_unique(case_.boundaries, "boundary", context_);
-    for (std::size_t i = 0; i < case_.boundaries.size(); ++i) boundary(case_.boundaries[i], i);
+    for (std::size_t i = 0; i < case_.boundaries.size(); ++i)
+      std::visit([&](const auto& b) { boundary(b, i); }, case_.boundaries[i]);
   }
 
   void boundary(const ConformingOptions& b, std::size_t i) {
@@ -212,6 +221,14 @@ class Checks {
                          fmt::format("expected at least lower, {} m, found {} m", b.lower[d], b.upper[d]));
     if (b.displacement && b.velocity)
       context_.fail_at(at("velocity"), "give either displacement or velocity");
+  }
+
+  void boundary(const WallOptions& w, std::size_t i) {
+    const auto at = [&](std::string_view key) { return place("boundary", i, key); };
+    if (!w.displacement.empty() && !w.velocity.empty())
+      context_.fail_at(at("velocity"), "give either displacement or velocity");
+    if (w.friction > 0.0 && w.kind != WallKind::roller)
+      context_.fail_at(at("friction"), "only for kind = \"roller\"");
   }
 
   void loads() {

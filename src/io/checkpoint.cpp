@@ -378,17 +378,19 @@ Checkpoint read_latest_checkpoint(const fs::path& folder, const OutputRanks& pla
   input_error("{}", reason);
 }
 
-std::vector<Checkpoint> read_latest_parts(const fs::path& folder, std::vector<std::string>* passed_over) {
+Checkpoint CheckpointParts::read(int part) const {
+  const fs::path file = checkpoint_file(folder, set, part);
+  Checkpoint checkpoint = Checkpoint::read_file(file, part, set.ranks);
+  if (checkpoint.step != set.step) input_error("checkpoint {} holds step {}", file.string(), checkpoint.step);
+  return checkpoint;
+}
+
+CheckpointParts latest_checkpoint_parts(const fs::path& folder, std::vector<std::string>* passed_over) {
   std::string reason;
   for (const CheckpointSet& set : checkpoint_sets(folder)) {
+    const CheckpointParts parts{folder, set};
     try {
-      std::vector<Checkpoint> parts;
-      for (int r = 0; r < set.ranks; ++r) {
-        parts.push_back(Checkpoint::read_file(checkpoint_file(folder, set, r), r, set.ranks));
-        if (parts.back().step != set.step)
-          input_error("checkpoint {} holds step {}", checkpoint_file(folder, set, r).string(),
-                      parts.back().step);
-      }
+      for (int r = 0; r < set.ranks; ++r) static_cast<void>(parts.read(r));
       return parts;
     } catch (const InputError& error) {
       if (reason.empty()) reason = error.what();

@@ -118,8 +118,16 @@ std::filesystem::path checkpoint_file(const std::filesystem::path& folder, const
 Checkpoint read_latest_checkpoint(const std::filesystem::path& folder, const OutputRanks& place = {},
                                   std::vector<std::string>* passed_over = nullptr);
 
-/// All parts of the newest readable set, rank by rank, to go on with another number of ranks.
-std::vector<Checkpoint> read_latest_parts(const std::filesystem::path& folder,
-                                          std::vector<std::string>* passed_over = nullptr);
+/// The files of one set, to be read one after the other.
+struct CheckpointParts {
+  std::filesystem::path folder;
+  CheckpointSet set;
+  int n() const { return set.ranks; }
+  Checkpoint read(int part) const;  ///< InputError
+};
+
+/// The newest set of which every part can be read, to go on with another number of ranks.
+CheckpointParts latest_checkpoint_parts(const std::filesystem::path& folder,
+                                        std::vector<std::string>* passed_over = nullptr);
 
 }  // namespace wisp

@@ -98,9 +98,9 @@ void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
   }
   model.reactions.clear();
   append(checkpoint, "reactions", model.reactions);
-  if (model.reactions.size() != model.conditions.size())
-    input_error("checkpoint: reactions of {} conditions, expected {}", model.reactions.size(),
-                model.conditions.size());
+  if (model.reactions.size() != model.boundaries.size())
+    input_error("checkpoint: reactions of {} boundaries, expected {}", model.reactions.size(),
+                model.boundaries.size());
   model.step = checkpoint.step;
   model.time = checkpoint.time;
   model.external_work = checkpoint.number("external_work");
@@ -147,30 +147,36 @@ void restore(const Checkpoint& checkpoint, Model<dim>& model) {
 }
 
 template <int dim>
-void restore_parts(const std::vector<Checkpoint>& parts, Model<dim>& model) {
-  clear_points(model);
-  for (const auto& part : parts) append_points(part, model);
+void restore_parts(const CheckpointParts& parts, Model<dim>& model) {
   const StructuredGrid<dim> grid = model.space->grid();
   std::vector<MultiIndex<dim>> cells;
-  const auto ranks = static_cast<std::size_t>(Session::size());
-  for (const auto& body : model.bodies)
-    for (std::size_t p = static_cast<std::size_t>(Session::rank()); p < body.points.position.size();
-         p += ranks) {
-      MultiIndex<dim> cell;
-      for (int d = 0; d < dim; ++d)
-        cell[d] = std::clamp(grid.locate_inside(d, body.points.position[p][d]), 0, grid.cells(d) - 1);
-      cells.push_back(cell);
+  for (int part = Session::rank(); part < parts.n(); part += Session::size()) {
+    const Checkpoint checkpoint = parts.read(part);
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      std::vector<Vec<dim>> positions;
+      append(checkpoint, field_name(b, "position"), positions);
+      for (const auto& x : positions) {
+        MultiIndex<dim> cell;
+        for (int d = 0; d < dim; ++d) cell[d] = std::clamp(grid.locate_inside(d, x[d]), 0, grid.cells(d) - 1);
+        cells.push_back(cell);
+      }
     }
+  }
   model.make_space(BoxPartition<dim>(grid.cells(), cells));
-  restore_common(parts.front(), model);
-  model.keep_owned();
+  clear_points(model);
+  for (int part = 0; part < parts.n(); ++part) {
+    const Checkpoint checkpoint = parts.read(part);
+    if (part == 0) restore_common(checkpoint, model);
+    append_points(checkpoint, model);
+    model.keep_owned();
+  }
 }
 
 template void store<2>(Model<2>&, Checkpoint&);
 template void store<3>(Model<3>&, Checkpoint&);
 template void restore<2>(const Checkpoint&, Model<2>&);
 template void restore<3>(const Checkpoint&, Model<3>&);
-template void restore_parts<2>(const std::vector<Checkpoint>&, Model<2>&);
-template void restore_parts<3>(const std::vector<Checkpoint>&, Model<3>&);
+template void restore_parts<2>(const CheckpointParts&, Model<2>&);
+template void restore_parts<3>(const CheckpointParts&, Model<3>&);
 
 }  // namespace wisp

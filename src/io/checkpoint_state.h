@@ -18,8 +18,8 @@ template <int dim>
 void restore(const Checkpoint& checkpoint, Model<dim>& model);
 
 /// The same from the parts of another number of ranks: the grid is split anew and every rank keeps the points
-/// of its own cells. Collective.
+/// of its own cells, part by part. Collective.
 template <int dim>
-void restore_parts(const std::vector<Checkpoint>& parts, Model<dim>& model);
+void restore_parts(const CheckpointParts& parts, Model<dim>& model);
 
 }  // namespace wisp

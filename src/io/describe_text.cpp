@@ -78,6 +78,7 @@ std::string type_text(const Kind& kind, const TypeText& type) {
   if (!kind.is_variant)  // the whole file has no header of its own
     text = fmt::format("{}: {}\n", kind.name == type.name && kind.name == "case" ? kind.name : header(kind),
                        type.summary);
+  if (type.name == kind.default_type) text += "The type where the key 'type' is left out.\n";
   if (!type.source.empty()) text += "Source: " + type.source + "\n";
   if (type.keys.empty()) return text + "No keys.\n";
   std::vector<std::vector<std::string>> rows{{"key", "value", "unit", "default", "range", "meaning"}};
@@ -107,8 +108,8 @@ void collect(const TypeText& type, std::vector<Kind>& kinds) {
     const std::string name(key.rules.name);
     auto same = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == name; });
     if (same == kinds.end()) {
-      kinds.push_back(
-          {name, std::string(key.rules.meaning), key.is_variant, key.is_list_of_tables, key.tables});
+      kinds.push_back({name, std::string(key.rules.meaning), key.is_variant, key.is_list_of_tables,
+                       key.default_type, key.tables});
       for (const auto& table : key.tables) collect(table, kinds);
       continue;
     }
@@ -125,7 +126,7 @@ void collect(const TypeText& type, std::vector<Kind>& kinds) {
 }  // namespace
 
 std::vector<Kind> kinds_of(const TypeText& root) {
-  std::vector<Kind> kinds{{root.name, root.summary, false, false, {root}}};
+  std::vector<Kind> kinds{{root.name, root.summary, false, false, {}, {root}}};
   collect(root, kinds);
   return kinds;
 }
@@ -173,6 +174,7 @@ std::string describe_markdown(const TypeText& root) {
                         kind.name == root.name ? "The whole file" : "`" + header(kind) + "`", kind.meaning);
     for (const auto& type : kind.types) {
       if (kind.is_variant) text += fmt::format("\n### `type = \"{}\"`\n\n{}.\n", type.name, type.summary);
+      if (type.name == kind.default_type) text += "\nThe type where the key `type` is left out.\n";
       if (!type.source.empty()) text += "\nSource: " + type.source + ".\n";
       if (type.keys.empty()) {
         text += "\nNo keys.\n";

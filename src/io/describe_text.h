@@ -24,6 +24,7 @@ struct KeyText {
   bool is_optional = false;        ///< std::optional: absent unless given
   bool is_list_of_tables = false;  ///< [[key]]
   bool is_variant = false;         ///< the key `type` selects one of `tables`
+  std::string default_type;        ///< of a variant: the type where the key `type` is left out, may be empty
   std::vector<TypeText> tables;    ///< the types of a nested table, empty for plain values
 };
 
@@ -39,6 +40,7 @@ struct Kind {
   std::string meaning;
   bool is_variant = false;
   bool is_list_of_tables = false;
+  std::string default_type;  ///< where the key `type` is left out; empty if it must be there
   std::vector<TypeText> types;
 };
 
@@ -109,6 +111,8 @@ void describe_tables(KeyText& text) {
     text.is_list_of_tables = !text.tables.empty();
   } else if constexpr (is_variant<T>) {
     text.is_variant = true;
+    if constexpr (default_alternative<T> >= 0)
+      text.default_type = Alternatives<T>::names()[static_cast<std::size_t>(default_alternative<T>)];
     for (int i = 0; i < static_cast<int>(std::variant_size_v<T>); ++i)
       Alternatives<T>::visit(i, [&](const auto& object) {
         text.tables.push_back(describe_type<std::decay_t<decltype(object)>>());

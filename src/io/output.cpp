@@ -162,13 +162,12 @@ HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : ou
       if (letter == ',' || letter == '"' || letter == '\n' || letter == '\r') letter = ' ';
     return name;
   };
-  held_.resize(model.conditions.size());
-  for (std::size_t k = 0; k < model.conditions.size() && output_.reactions; ++k)
+  held_.resize(model.boundaries.size());
+  for (std::size_t k = 0; k < model.boundaries.size() && output_.reactions; ++k)
     for (int d = 0; d < dim; ++d) {
-      if (!model.conditions[k].holds(d)) continue;
+      if (!holds(model.boundaries[k], d)) continue;
       held_[k].push_back(d);
-      titles_.push_back(
-          fmt::format("reaction {} {} [N{}]", plain(model.conditions[k].name()), "xyz"[d], per));
+      titles_.push_back(fmt::format("reaction {} {} [N{}]", plain(name(model.boundaries[k])), "xyz"[d], per));
     }
   for (const auto& track : output_.track)
     for (const auto& [what, unit] : {std::pair{"position", "m"}, {"displacement", "m"}, {"velocity", "m/s"}})

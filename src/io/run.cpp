@@ -12,6 +12,8 @@
 #include "io/output.h"
 #include "io/results_folder.h"
 #include "io/run_report.h"
+#include "io/sound_state.h"
+#include "io/stored_case.h"
 
 namespace wisp {
 namespace {
@@ -23,28 +25,6 @@ constexpr std::int64_t rebalance_every = 20;
 ModelOptions model_options(const Case& c) {
   return {c.grid,      c.basis,   c.bodies,        c.boundaries, c.loads,
           c.tractions, c.gravity, c.stabilisation, c.solver,     c.file.folder};
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const auto& line : lines) text += line + "\n";
-  return text;
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = text.find('\n', at);
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
-/// The case that a checkpoint belongs to.
-Case stored_case(const Checkpoint& checkpoint) {
-  return read_case(CaseSource{checkpoint.text("case name"), checkpoint.text("case folder"),
-                              checkpoint.case_text, split(checkpoint.text("case overrides"))});
 }
 
 /// Explicit stages start steps from these: see Explicit::warm_velocity.
@@ -64,23 +44,27 @@ class Run {
         tracked_(c.output.track, model_) {}
 
   void start() {
+    balance_ = EnergyBalance(EnergyBalance::total(energies_of_points(model_)));
     results_.emplace(ResultsFolder::start(folder_, case_, columns_.titles()));
     add_state();
     go();
   }
 
-  /// `parts`: this rank's own if as many ranks go on as were stopped, else those of all ranks.
-  void resume(const std::vector<Checkpoint>& parts, bool same_ranks) {
-    const Checkpoint& first = parts.front();
+  /// `first`: this rank's part if as many ranks go on as were stopped; else that of rank 0, and `parts` reads
+  /// all of them. `changed`: the case is not quite that of the stopped run.
+  void resume(const Checkpoint& first, const CheckpointParts* parts, bool changed) {
+    const bool same_ranks = parts == nullptr;
     if (same_ranks)
       restore(first, model_);
     else
-      restore_parts(parts, model_);
+      restore_parts(*parts, model_);
     stage_ = static_cast<std::size_t>(first.integer("stage"));
     step_in_stage_ = first.integer("step in stage");
     stage_start_ = first.number("stage start");
     if (const auto& energy = first.doubles("first energy"); !energy.empty()) first_energy_ = energy.front();
-    told_removed_ = model_.removed, checkpoint_step_ = model_.step;
+    balance_ = EnergyBalance(first.number("energy at the start"), first.number("energy given"));
+    told_removed_ = model_.removed, checkpoint_step_ = model_.step, checkpoint_time_ = model_.time;
+    if (changed) count_steps_anew();
     if (same_ranks) warm_ = {first.doubles("warm velocity"), first.doubles("warm acceleration")};
     results_.emplace(
         ResultsFolder::resume(folder_, columns_.titles(), model_.time, first.integer("last row")));
@@ -150,9 +134,27 @@ class Run {
   bool row_due() const {
     return results_->last_row() < model_.step && model_.step % case_.output.history_every == 0;
   }
-  EnergyRecord energies_of_points() const;
+  /// Finished steps of the stage where their number per stage may have changed.
+  void count_steps_anew() {
+    if (stage_ == case_.stages.size()) return;
+    const double done = share_done();
+    std::visit(
+        [&](const auto& o) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(o)>, ExplicitOptions>)
+            step_in_stage_ = static_cast<std::int64_t>(std::floor(done * o.steps + 1e-9));
+        },
+        case_.stages[stage_]);
+  }
+  void settle_or_stop(auto& analysis);
+  void check_balance(Explicit<dim>& analysis, const EnergyRecord& record, double work);
+  template <class Analysis>
+  [[noreturn]] void stop(Analysis& analysis, const std::string& cause);
   void add_row(std::int64_t step, double time, Row<dim> row);
-  void add_state() { results_->add_state(model_.step, model_.time, picture(model_)); }
+  void add_state() {
+    if (state_step_ == model_.step) return;
+    results_->add_state(model_.step, model_.time, picture(model_));
+    state_step_ = model_.step;
+  }
 
   Case case_;
   fs::path folder_;
@@ -169,22 +171,56 @@ class Run {
   std::optional<WarmStart> warm_;       ///< of the checkpoint, until its stage goes on
   double last_dt_ = 0.0;                ///< s
   std::int64_t told_removed_ = 0;
+  EnergyBalance balance_;
+  std::int64_t state_step_ = -1;       ///< of the newest state
   std::int64_t checkpoint_step_ = -1;  ///< of the newest checkpoint
+  double checkpoint_time_ = 0.0;       ///< s
   double point_steps_ = 0.0;
   std::vector<StageTimes> times_;
 };
 
+/// Stops a run that makes energy out of nothing.
 template <int dim>
-EnergyRecord Run<dim>::energies_of_points() const {
-  EnergyRecord record;
-  for (const auto& body : model_.bodies) {
-    const BodyEnergy e = energy(body);
-    record.kinetic += e.kinetic, record.strain += e.strain, record.dissipation += e.dissipation;
+void Run<dim>::check_balance(Explicit<dim>& analysis, const EnergyRecord& record, double work) {
+  balance_.add_work(work);
+  if (!balance_.is_broken(record)) return;
+  stop(analysis,
+       fmt::format(
+           "step {} at t = {:.6g} s: the points have {:.3g} J, more than a hundred times the {:.3g} J that "
+           "they "
+           "were given: the step is longer than the stable one, or nearly empty cells have no stabilisation; "
+           "try a smaller dt or cfl, or add [stabilisation] with mass = \"consistent\"",
+           model_.step, model_.time, EnergyBalance::total(record), balance_.given()));
+}
+
+/// A step has failed. Keeps the state before it if that is at hand and makes sense, and tells from where the
+/// run can go on.
+template <int dim>
+template <class Analysis>
+void Run<dim>::stop(Analysis& analysis, const std::string& cause) {
+  if (!analysis.points_changed() && is_finite(model_) && !balance_.is_broken(energies_of_points(model_))) {
+    if (checkpoint_step_ != model_.step || checkpoint_time_ != model_.time) {
+      if constexpr (std::is_same_v<Analysis, Explicit<dim>>)  // of the failed step
+        analysis.warm_velocity().clear(), analysis.warm_acceleration().clear();
+      add_state();
+      add_checkpoint(analysis, false);
+    }
+    run_error("{}; the state at t = {:.6g} s, after step {}, is kept: wisp resume {}", cause, model_.time,
+              model_.step, folder_.string());
   }
-  const Vec<3> sum = Session::sum(Vec<3>(record.kinetic, record.strain, record.dissipation));
-  record.kinetic = sum[0], record.strain = sum[1], record.dissipation = sum[2];
-  record.external_work = model_.external_work;
-  return record;
+  if (checkpoint_step_ >= 0)
+    run_error("{}; the last good state is the checkpoint of step {} at t = {:.6g} s: wisp resume {}", cause,
+              checkpoint_step_, checkpoint_time_, folder_.string());
+  run_error("{}; no state but the start is kept: set checkpoint_every in [output]", cause);
+}
+
+template <int dim>
+void Run<dim>::settle_or_stop(auto& analysis) {
+  try {
+    model_.settle();
+  } catch (const RunError& error) {
+    stop(analysis, error.what());
+  }
 }
 
 template <int dim>
@@ -210,7 +246,7 @@ void Run<dim>::after_step(Analysis& analysis, double time_before, Progress& prog
   const bool state_due = frames > 0 && (over || frame(model_.time) > frame(time_before));
   const bool checkpoint_due = over || (every > 0 && model_.step % every == 0);
   // Files show and hold settled states: points in the grid, each with its rank.
-  if (state_due || checkpoint_due) model_.settle();
+  if (state_due || checkpoint_due) settle_or_stop(analysis);
   if (model_.removed > told_removed_) {
     progress.line(fmt::format("step {} at t = {:.6g} s: {} points left the grid and were removed, {} so far",
                               model_.step, model_.time, model_.removed - told_removed_, model_.removed));
@@ -220,7 +256,10 @@ void Run<dim>::after_step(Analysis& analysis, double time_before, Progress& prog
     if (over) add_last_row(analysis);
   const auto timer = model_.timers.start("states, checkpoints");
   if (state_due) add_state();
-  if (checkpoint_due) add_checkpoint(analysis, over);
+  if (!checkpoint_due) return;
+  if constexpr (std::is_same_v<Analysis, Explicit<dim>>)  // never a bad state in the place of a good one
+    check_balance(analysis, energies_of_points(model_), model_.external_work);
+  add_checkpoint(analysis, over);
 }
 
 template <int dim>
@@ -228,14 +267,13 @@ template <class Analysis>
 void Run<dim>::add_checkpoint(Analysis& analysis, bool stage_is_over) {
   Checkpoint checkpoint;
   store(model_, checkpoint);
-  checkpoint.case_text = case_.file.text;
-  checkpoint.set("case name", case_.file.name);
-  checkpoint.set("case folder", fs::absolute(case_.file.folder).string());
-  checkpoint.set("case overrides", joined(case_.file.overrides));
+  store_case(case_.file, checkpoint);
   checkpoint.set_integer("stage", static_cast<std::int64_t>(stage_) + (stage_is_over ? 1 : 0));
   checkpoint.set_integer("step in stage", stage_is_over ? 0 : step_in_stage_);
   checkpoint.set_number("stage start", stage_start_);
   checkpoint.set_integer("last row", results_->last_row());
+  checkpoint.set_number("energy at the start", balance_.start());
+  checkpoint.set_number("energy given", balance_.given());
   checkpoint.set("first energy", first_energy_ ? Checkpoint::Doubles{*first_energy_} : Checkpoint::Doubles{});
   WarmStart warm;
   if constexpr (std::is_same_v<Analysis, Explicit<dim>>)
@@ -245,7 +283,7 @@ void Run<dim>::add_checkpoint(Analysis& analysis, bool stage_is_over) {
   results_->add_checkpoint(checkpoint);
   // A run that goes on from here has nothing kept in its solvers, so neither has this one.
   analysis.renew_solver();
-  checkpoint_step_ = model_.step;
+  checkpoint_step_ = model_.step, checkpoint_time_ = model_.time;
 }
 
 /// The row after the last step: energies of the state that no further step starts from.
@@ -281,7 +319,11 @@ void Run<dim>::stage(const ExplicitOptions& options) {
                     talk_ == Talk::normal ? Progress::Style::automatic : Progress::Style::quiet);
   std::string remark;  // energies of the last row
   while (model_.time < stage_end()) {
-    if (rebalance()) analysis.warm_velocity().clear(), analysis.warm_acceleration().clear();
+    try {
+      if (rebalance()) analysis.warm_velocity().clear(), analysis.warm_acceleration().clear();
+    } catch (const RunError& error) {
+      stop(analysis, error.what());
+    }
     const double time = model_.time, work = model_.external_work;
     const std::int64_t step = model_.step;
     const bool row_is_due = row_due(), energies = row_is_due && case_.output.energies;
@@ -290,20 +332,19 @@ void Run<dim>::stage(const ExplicitOptions& options) {
     row.dt = last_dt_ = analysis.time_step(stage_end());
     try {
       analysis.step(row.dt, energies ? &row.energy : nullptr);
-    } catch (const RunError& error) {  // the points may be half way through the step: older states count
-      if (checkpoint_step_ < 0) throw;
-      run_error("{}; the last checkpoint is that of step {}: wisp resume {}", error.what(), checkpoint_step_,
-                folder_.string());
+    } catch (const RunError& error) {
+      stop(analysis, error.what());
     }
     ++step_in_stage_;
-    const bool last =
-        options.steps ? step_in_stage_ == *options.steps : stage_end() - model_.time <= 1e-9 * row.dt;
+    // Times of equal steps are summed, and their number may have been changed when the run went on.
+    const bool last = stage_end() - model_.time <= (options.steps ? 1e-3 : 1e-9) * row.dt;
     if (last) model_.time = stage_end();  // sums of steps miss it by rounding
     if (row_is_due) {
       row.energy.external_work = work;
       row.reactions = model_.reactions;
       add_row(step, time, row);
     }
+    if (energies) check_balance(analysis, row.energy, work);
     if (energies)
       remark = fmt::format("  kinetic {:.4g} J  strain {:.4g} J", row.energy.kinetic, row.energy.strain);
     if (progress.wants_update(share_done()))
@@ -321,7 +362,8 @@ void Run<dim>::stage(const Options& options) {
                     talk_ == Talk::normal ? Progress::Style::automatic : Progress::Style::quiet);
   if (row_due()) {
     Row<dim> row;
-    row.energy = energies_of_points(), row.reactions = model_.reactions, row.tracked = tracked_.now(model_);
+    row.energy = energies_of_points(model_), row.reactions = model_.reactions,
+    row.tracked = tracked_.now(model_);
     add_row(model_.step, model_.time, row);
   }
   while (step_in_stage_ < options.steps) {
@@ -336,10 +378,8 @@ void Run<dim>::stage(const Options& options) {
     row.dt = target - time;
     try {
       row.newton = analysis.step(row.dt, &row.energy);
-    } catch (const StepRefused& refused) {
-      if (checkpoint_step_ != model_.step || model_.time > time) add_checkpoint(analysis, false);
-      run_error("{}; the state at t = {:.6g} s, after step {}, is kept: wisp resume {}", refused.what(),
-                model_.time, model_.step, folder_.string());
+    } catch (const RunError& error) {
+      stop(analysis, error.what());
     }
     step_in_stage_ = next;
     model_.time = target;
@@ -371,18 +411,20 @@ void run_case(const Case& c, const fs::path& folder, Talk talk) {
   with_dimension(c, [&](auto dim) { Run<dim()>(c, folder, talk).start(); });
 }
 
-void resume_run(const fs::path& folder, Talk talk) {
+void resume_run(const fs::path& folder, const std::vector<std::string>& changes, Talk talk) {
+  check_changes(changes);
   std::vector<std::string> passed_over;
-  const bool same_ranks = checkpoint_sets(folder).front().ranks == Session::size();
-  std::vector<Checkpoint> parts;
-  if (same_ranks)
-    parts.push_back(read_latest_checkpoint(folder, output_ranks(), &passed_over));
-  else
-    parts = read_latest_parts(folder, &passed_over);
+  std::optional<CheckpointParts> parts;
+  if (checkpoint_sets(folder).front().ranks != Session::size())
+    parts = latest_checkpoint_parts(folder, &passed_over);
+  const Checkpoint first =
+      parts ? parts->read(0) : read_latest_checkpoint(folder, output_ranks(), &passed_over);
   if (talk == Talk::normal && Session::rank() == 0)
     for (const auto& reason : passed_over) fmt::print("passed over: {}\n", reason);
-  const Case c = stored_case(parts.front());
-  with_dimension(c, [&](auto dim) { Run<dim()>(c, folder, talk).resume(parts, same_ranks); });
+  const Case c = stored_case(first, changes);
+  with_dimension(c, [&](auto dim) {
+    Run<dim()>(c, folder, talk).resume(first, parts ? &*parts : nullptr, !changes.empty());
+  });
 }
 
 }  // namespace wisp

@@ -15,8 +15,11 @@ enum class Talk { normal, quiet };
 /// go on.
 void run_case(const Case& c, const std::filesystem::path& folder, Talk talk = Talk::normal);
 
-/// Goes on from the newest checkpoint in a folder. On the number of ranks that wrote it the result has the
-/// same bits as that of a run that was never stopped; on another number, 1e-10 relative. Collective.
-void resume_run(const std::filesystem::path& folder, Talk talk = Talk::normal);
+/// Goes on from the newest checkpoint in a folder. `changes` ("key=value") may alter how the run steps and
+/// solves (stage, solver, stabilisation, grid.leaving, some of output), so that a run that failed can go on
+/// otherwise; other keys are an InputError. Without changes, on the number of ranks that wrote it the result
+/// has the same bits as that of a run that was never stopped; on another number, 1e-10 relative. Collective.
+void resume_run(const std::filesystem::path& folder, const std::vector<std::string>& changes = {},
+                Talk talk = Talk::normal);
 
 }  // namespace wisp

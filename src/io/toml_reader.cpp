@@ -259,11 +259,13 @@ int read_choice(const toml::node& node, const std::vector<std::string>& names, s
   context.fail(node.source(), key, fmt::format("expected {}, found {}{}", expected, found(node), hint));
 }
 
-int read_type(const toml::table& table, const std::vector<std::string>& names, const Context& context) {
+int read_type(const toml::table& table, const std::vector<std::string>& names, int otherwise,
+              const Context& context) {
   if (const toml::node* node = table.get("type")) return read_choice(*node, names, "type", context);
   for (auto&& [name, node] : table)
     if (edit_distance(name.str(), "type") == 1)
       context.fail(name.source(), "", fmt::format("unknown key '{}'; did you mean 'type'?", name.str()));
+  if (otherwise >= 0) return otherwise;
   context.fail(table.source(), "", fmt::format("missing key 'type': expected one of {}", quoted(names)));
 }
 

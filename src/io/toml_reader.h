@@ -113,8 +113,9 @@ const toml::array& read_tables(const toml::node&, const KeyRules&, std::string_v
 int read_choice(const toml::node&, const std::vector<std::string>& names, std::string_view key,
                 const Context&);
 
-/// Index of the alternative that key `type` of a table selects.
-int read_type(const toml::table&, const std::vector<std::string>& names, const Context&);
+/// Index of the alternative that key `type` of a table selects; `otherwise` where there is no such key, if it
+/// is not negative.
+int read_type(const toml::table&, const std::vector<std::string>& names, int otherwise, const Context&);
 
 /// Error for the first key of the table that is not among `valid`.
 void check_keys(const toml::table&, const std::vector<std::string>& valid, const Context&);
@@ -142,7 +143,7 @@ template <class T>
 constexpr std::string_view noun() {
   if constexpr (std::is_same_v<T, bool>) return "true or false";
   if constexpr (std::is_integral_v<T>) return "integer";
-  if constexpr (std::is_floating_point_v<T>) return "number";
+  if constexpr (std::is_floating_point_v<T> || std::is_same_v<T, Curve>) return "number";
   if constexpr (is_vector<T>) return "list";
   return "text";
 }
@@ -196,7 +197,7 @@ template <class Variant>
 Variant read_variant(const toml::table& table, Context& context) {
   using List = reader::Alternatives<Variant>;
   std::optional<Variant> result;
-  List::visit(reader::read_type(table, List::names(), context),
+  List::visit(reader::read_type(table, List::names(), default_alternative<Variant>, context),
               [&](auto object) { result.emplace(read_table<decltype(object)>(table, context, "type")); });
   return std::move(*result);
 }

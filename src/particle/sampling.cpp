@@ -2,19 +2,21 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.h"
 #include "geometry/region.h"
+#include "parallel/session.h"
 
 namespace wisp {
 
 namespace {
 
-/// Positions, volumes and domains before they become points.
+/// A point before it gets its material.
 template <int dim>
-struct Layout {
-  std::vector<Vec<dim>> position, half_length, velocity;
-  std::vector<double> volume;
+struct Seed {
+  Vec<dim> position, half_length, velocity;
+  double volume;
 };
 
 /// Positions r in (-1, 1) and shares w of a cell (sum 1) in one direction.
@@ -41,72 +43,98 @@ Rule gauss_rule(int m) {
   return rule;
 }
 
-template <int dim, class Shape>
-void fill_cell(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule, const Shape& shape,
-               Layout<dim>& out) {
+/// Calls f(seed) for the points of a cell that lie in a shape.
+template <int dim, class Shape, class F>
+void fill_cell(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule, const Shape& shape, F&& f) {
   const int m = static_cast<int>(rule.r.size());
   const Vec<dim> side = upper - lower;
   const Vec<dim> middle = 0.5 * (lower + upper);
   for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), MultiIndex<dim>::Constant(m)},
               [&](const MultiIndex<dim>& index) {
-                Vec<dim> x, l;
-                double volume = 1.0;
+                Seed<dim> seed;
+                seed.velocity.setZero();
+                seed.volume = 1.0;
                 for (int d = 0; d < dim; ++d) {
                   const auto i = static_cast<std::size_t>(index[d]);
-                  x[d] = middle[d] + 0.5 * side[d] * rule.r[i];
-                  l[d] = 0.5 * side[d] * rule.w[i];
-                  volume *= side[d] * rule.w[i];
+                  seed.position[d] = middle[d] + 0.5 * side[d] * rule.r[i];
+                  seed.half_length[d] = 0.5 * side[d] * rule.w[i];
+                  seed.volume *= side[d] * rule.w[i];
                 }
-                if (!shape.contains(x)) return;
-                out.position.push_back(x), out.half_length.push_back(l), out.volume.push_back(volume);
+                if (shape.contains(seed.position)) f(seed);
               });
 }
 
+/// The points that lie in a shape, layer by layer: the cells (of the grid, or of the box around the shape
+/// divided) with the same place in the last direction.
 template <int dim>
-Layout<dim> lay_out(const BodyOptions& options, const StructuredGrid<dim>& grid,
-                    const std::filesystem::path& folder) {
-  Layout<dim> out;
-  if (const auto* file = std::get_if<PointFile>(&options.shape)) {
-    PointTable<dim> table = read_points<dim>(*file, folder);
-    out.position = std::move(table.positions), out.volume = std::move(table.volumes);
-    out.velocity = std::move(table.velocities), out.half_length = std::move(table.half_lengths);
-    if (out.half_length.empty())
-      for (const double v : out.volume)
-        out.half_length.push_back(Vec<dim>::Constant(0.5 * std::pow(v, 1.0 / dim)));
-    return out;
+class Layers {
+ public:
+  Layers(const BodyOptions& options, const StructuredGrid<dim>& grid, const std::filesystem::path& folder)
+      : grid_(grid), region_(region<dim>(options.shape, folder)) {
+    const Sampling& s = options.sampling;
+    const auto box = bounds(region_);
+    if (s.method == SamplingMethod::divisions) {
+      if (s.divisions.size() != dim)
+        input_error("body '{}': sampling by divisions needs `divisions` with {} values", options.label, dim);
+      for (int d = 0; d < dim; ++d) cells_.upper[d] = s.divisions[static_cast<std::size_t>(d)];
+      start_ = box.lower;
+      step_ = (box.upper - box.lower).cwiseQuotient(cells_.upper.template cast<double>());
+      rule_ = even_rule(1);
+      divided_ = true;
+      return;
+    }
+    rule_ = s.method == SamplingMethod::gauss ? gauss_rule(s.points_per_cell) : even_rule(s.points_per_cell);
+    for (int d = 0; d < dim; ++d) {
+      cells_.lower[d] = std::max(0, grid.locate(d, box.lower[d]));
+      cells_.upper[d] = std::min(grid.cells(d), grid.locate(d, box.upper[d]) + 1);
+    }
   }
-  const Region<dim> any = region<dim>(options.shape, folder);
-  std::visit(
-      [&](const auto& shape) {
-        const auto box = bounds(shape);
-        const Sampling& s = options.sampling;
-        if (s.method == SamplingMethod::divisions) {
-          if (s.divisions.size() != dim)
-            input_error("body '{}': sampling by divisions needs `divisions` with {} values", options.label,
-                        dim);
-          MultiIndex<dim> n;
-          for (int d = 0; d < dim; ++d) n[d] = s.divisions[static_cast<std::size_t>(d)];
-          const Vec<dim> step = (box.upper - box.lower).cwiseQuotient(n.template cast<double>());
-          const Rule rule = even_rule(1);
-          for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), n}, [&](const MultiIndex<dim>& i) {
-            const Vec<dim> lower = box.lower + step.cwiseProduct(i.template cast<double>());
-            fill_cell<dim>(lower, lower + step, rule, shape, out);
+
+  int n() const { return std::max(0, cells_.upper[dim - 1] - cells_.lower[dim - 1]); }
+  /// Whether a layer reaches into an interval of the last direction, its ends included.
+  bool meets(int layer, double lower, double upper) const {
+    MultiIndex<dim> cell = cells_.lower;
+    cell[dim - 1] += layer;
+    return corner(cell)[dim - 1] <= upper && corner(cell + MultiIndex<dim>::Ones())[dim - 1] >= lower;
+  }
+  template <class F>
+  void for_each_point(int layer, F&& f) const {
+    IndexBox<dim> cells = cells_;
+    cells.lower[dim - 1] += layer, cells.upper[dim - 1] = cells.lower[dim - 1] + 1;
+    std::visit(
+        [&](const auto& shape) {
+          for_each_in(cells, [&](const MultiIndex<dim>& c) {
+            fill_cell<dim>(corner(c), corner(c + MultiIndex<dim>::Ones()), rule_, shape, f);
           });
-          return;
-        }
-        const Rule rule =
-            s.method == SamplingMethod::gauss ? gauss_rule(s.points_per_cell) : even_rule(s.points_per_cell);
-        IndexBox<dim> cells;
-        for (int d = 0; d < dim; ++d) {
-          cells.lower[d] = std::max(0, grid.locate(d, box.lower[d]));
-          cells.upper[d] = std::min(grid.cells(d), grid.locate(d, box.upper[d]) + 1);
-        }
-        for_each_in(cells, [&](const MultiIndex<dim>& c) {
-          fill_cell<dim>(grid.node(c), grid.node(c + MultiIndex<dim>::Ones()), rule, shape, out);
-        });
-      },
-      any);
-  return out;
+        },
+        region_);
+  }
+
+ private:
+  Vec<dim> corner(const MultiIndex<dim>& c) const {
+    if (!divided_) return grid_.node(c);
+    return start_ + step_.cwiseProduct(c.template cast<double>());
+  }
+
+  const StructuredGrid<dim>& grid_;
+  Region<dim> region_;
+  Rule rule_;
+  IndexBox<dim> cells_;
+  bool divided_ = false;
+  Vec<dim> start_ = Vec<dim>::Zero(), step_ = Vec<dim>::Zero();  // of divisions
+};
+
+/// Throws the fault of the lowest rank that has one, on all ranks.
+void fail_together(const std::string& fault) {
+  const int lowest = Session::min(fault.empty() ? Session::size() : Session::rank());
+  if (lowest < Session::size()) input_error("{}", Session::broadcast(fault, lowest));
+}
+
+template <int dim>
+Seed<dim> seed_of(const PointRow<dim>& row) {
+  return {row.position,
+          row.half_length ? *row.half_length : Vec<dim>::Constant(0.5 * std::pow(row.volume, 1.0 / dim)),
+          row.velocity ? *row.velocity : Vec<dim>::Zero(), row.volume};
 }
 
 template <int dim>
@@ -132,12 +160,7 @@ Mat<dim> velocity_gradient(const BodyOptions& options) {
 
 template <int dim>
 Sym<dim> initial_stress(const BodyOptions& options, double density, const Vec<dim>& x) {
-  if (!options.initial_stress.empty()) {
-    if (options.initial_stress.size() != sym_size<dim>)
-      input_error("body '{}': initial_stress needs {} values, found {}", options.label, sym_size<dim>,
-                  options.initial_stress.size());
-    return Eigen::Map<const Sym<dim>>(options.initial_stress.data());
-  }
+  if (!options.initial_stress.empty()) return Eigen::Map<const Sym<dim>>(options.initial_stress.data());
   Sym<dim> sigma = Sym<dim>::Zero();
   if (options.k0) {
     const double depth = std::max(0.0, options.k0->surface - x[dim - 1]);
@@ -151,53 +174,106 @@ Sym<dim> initial_stress(const BodyOptions& options, double density, const Vec<di
 }  // namespace
 
 template <int dim>
-Body<dim> sample(const BodyOptions& options, const StructuredGrid<dim>& grid, bool with_domains,
-                 std::int64_t first_id, const std::filesystem::path& folder) {
-  Layout<dim> layout = lay_out<dim>(options, grid, folder);
-  if (layout.position.empty())
+Sampler<dim>::Sampler(const BodyOptions& options, const StructuredGrid<dim>& grid,
+                      const std::filesystem::path& folder)
+    : options_(options), grid_(grid), folder_(folder) {
+  std::string fault;
+  const auto add = [&](const Vec<dim>& x) {
+    MultiIndex<dim> cell;
+    for (int d = 0; d < dim; ++d) {
+      cell[d] = grid.locate_inside(d, x[d]);
+      if ((cell[d] < 0 || cell[d] >= grid.cells(d)) && fault.empty())
+        fault = fmt::format("body '{}': a point at {} = {} lies outside the grid, which spans [{}, {}]",
+                            options.label, "xyz"[d], x[d], grid.lower()[d], grid.upper()[d]);
+    }
+    share_.push_back(cell);
+  };
+  const int rank = Session::rank(), ranks = Session::size();
+  if (const auto* file = std::get_if<PointFile>(&options.shape)) {
+    for_each_point<dim>(*file, folder, [&](const PointRow<dim>& row) {
+      if (count_++ % ranks == rank) add(row.position);
+    });
+  } else {
+    const Layers<dim> layers(options, grid, folder);
+    start_.assign(static_cast<std::size_t>(layers.n()) + 1, 0);
+    for (int k = rank; k < layers.n(); k += ranks) {
+      const std::size_t before = share_.size();
+      layers.for_each_point(k, [&](const Seed<dim>& seed) { add(seed.position); });
+      start_[static_cast<std::size_t>(k) + 1] = static_cast<std::int64_t>(share_.size() - before);
+    }
+    Session::sum_in_place(start_);
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    count_ = start_.back();
+  }
+  fail_together(fault);
+  if (count_ == 0)
     input_error(
         "body '{}': no point lies in its shape; check the shape, or use more points per cell or divisions",
         options.label);
-  const Vec<dim> v0 = vector_or_zero<dim>(options.velocity, "velocity", options.label);
-  const Vec<dim> centre = vector_or_zero<dim>(options.velocity_centre, "velocity_centre", options.label);
-  const Mat<dim> gradient = velocity_gradient<dim>(options);
-  if (options.k0 && !options.initial_stress.empty())
-    input_error("body '{}': give either initial_stress or k0", options.label);
+}
 
-  Body<dim> body{options.label, {}, make_material<dim>(options.material)};
+template <int dim>
+template <class F>
+void Sampler<dim>::for_each_in_cells(const IndexBox<dim>& cells, F&& f) const {
+  const auto try_point = [&](std::int64_t k, const auto& seed) {
+    MultiIndex<dim> cell;
+    for (int d = 0; d < dim; ++d) cell[d] = grid_.locate_inside(d, seed.position[d]);
+    if (cells.contains(cell)) f(k, seed);
+  };
+  if (const auto* file = std::get_if<PointFile>(&options_.shape)) {
+    std::int64_t k = 0;
+    for_each_point<dim>(*file, folder_, [&](const PointRow<dim>& row) { try_point(k++, seed_of<dim>(row)); });
+    return;
+  }
+  const Layers<dim> layers(options_, grid_, folder_);
+  const double lower = grid_.line(dim - 1, cells.lower[dim - 1]);
+  const double upper = grid_.line(dim - 1, cells.upper[dim - 1]);
+  for (int layer = 0; layer < layers.n(); ++layer) {
+    if (!layers.meets(layer, lower, upper)) continue;
+    std::int64_t k = start_[static_cast<std::size_t>(layer)];
+    layers.for_each_point(layer, [&](const Seed<dim>& seed) { try_point(k++, seed); });
+  }
+}
+
+template <int dim>
+Body<dim> Sampler<dim>::points(const IndexBox<dim>& cells, bool with_domains, std::int64_t first_id) const {
+  const BodyOptions& o = options_;
+  const Vec<dim> v0 = vector_or_zero<dim>(o.velocity, "velocity", o.label);
+  const Vec<dim> centre = vector_or_zero<dim>(o.velocity_centre, "velocity_centre", o.label);
+  const Mat<dim> gradient = velocity_gradient<dim>(o);
+  if (o.k0 && !o.initial_stress.empty()) input_error("body '{}': give either initial_stress or k0", o.label);
+  if (!o.initial_stress.empty() && o.initial_stress.size() != sym_size<dim>)
+    input_error("body '{}': initial_stress needs {} values, found {}", o.label, sym_size<dim>,
+                o.initial_stress.size());
+
+  Body<dim> body{o.label, {}, make_material<dim>(o.material)};
   Particles<dim>& points = body.points;
   const double rho = body.density();
-  const std::size_t n = layout.position.size();
-  for (std::size_t p = 0; p < n; ++p) {
-    const Vec<dim>& x = layout.position[p];
-    for (int d = 0; d < dim; ++d)
-      if (const int i = grid.locate_inside(d, x[d]); i < 0 || i >= grid.cells(d))
-        input_error("body '{}': a point at {} = {} lies outside the grid, which spans [{}, {}]",
-                    options.label, "xyz"[d], x[d], grid.lower()[d], grid.upper()[d]);
-    points.id.push_back(first_id + static_cast<std::int64_t>(p));
-    points.velocity.push_back(v0 + gradient * (x - centre) +
-                              (layout.velocity.empty() ? Vec<dim>::Zero() : layout.velocity[p]));
-    points.mass.push_back(rho * layout.volume[p]);
-  }
+  for_each_in_cells(cells, [&](std::int64_t k, const Seed<dim>& seed) {
+    const Vec<dim>& x = seed.position;
+    points.id.push_back(first_id + k);
+    points.position.push_back(x);
+    points.velocity.push_back(v0 + gradient * (x - centre) + seed.velocity);
+    points.mass.push_back(rho * seed.volume);
+    points.volume.push_back(seed.volume);
+    if (with_domains) points.half_length.push_back(seed.half_length);
+  });
+  const std::size_t n = points.id.size();
+  points.initial_half_length = points.half_length;
   points.cell.assign(n, 0);
   points.displacement.assign(n, Vec<dim>::Zero());
   points.deformation_gradient.assign(n, Mat<dim>::Identity());
   std::visit(
       [&](auto& m) {
-        for (const auto& x : layout.position)
-          m.old.push_back(m.law.template initial<dim>(initial_stress<dim>(options, rho, x)));
+        m.old.reserve(n);
+        for (const auto& x : points.position)
+          m.old.push_back(m.law.template initial<dim>(initial_stress<dim>(o, rho, x)));
       },
       body.material);
-  points.position = std::move(layout.position);
-  points.volume = std::move(layout.volume);
-  if (with_domains)
-    points.half_length = layout.half_length, points.initial_half_length = std::move(layout.half_length);
   return body;
 }
 
-template Body<2> sample<2>(const BodyOptions&, const StructuredGrid<2>&, bool, std::int64_t,
-                           const std::filesystem::path&);
-template Body<3> sample<3>(const BodyOptions&, const StructuredGrid<3>&, bool, std::int64_t,
-                           const std::filesystem::path&);
+template class Sampler<2>;
+template class Sampler<3>;
 
 }  // namespace wisp

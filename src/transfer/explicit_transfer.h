@@ -19,13 +19,22 @@ inline constexpr int motion_stride = dim == 2 ? 4 : 8;
 
 enum class Gather { inertia, force, both };
 
+/// The motion that a stress has already followed when its forces are gathered: USF strains before them.
+struct FollowedMotion {
+  std::span<const double> velocity;  ///< n_functions x dim, m/s; empty: none
+  double dt = 0.0;                   ///< s
+};
+
 /// Adds a body's mass and momentum and/or forces to `sums` (n_functions x sums_stride):
 ///     m_i = sum_p phi_i m_p,  (mv)_i = sum_p phi_i m_p (v_p + C_p (x_i - x_p)),
-///     f_i = sum_p phi_i m_p g - sum_p tau_p V0_p grad phi_i            (Coombs 2023, eq. 6, 10, 15)
-/// The affine part only with `apic`.
+///     f_i = sum_p phi_i m_p g - sum_p tau_p V0_p dF_p^-T grad phi_i    (Coombs 2023, eq. 6, 10, 15)
+/// The affine part only with `apic`. dF = I + dt sum_i v_i (x) grad phi_i of the followed motion (only with
+/// Gather::both and laws of finite strain; otherwise I) takes the gradients to the coordinates to which the
+/// stress belongs: then the forces are the derivative of the strain energy, and the work of a step equals its
+/// increase but for terms of dt^2.
 template <int dim>
 void points_to_grid(const Space<dim>& space, const Body<dim>& body, Gather what, const Vec<dim>& gravity,
-                    bool apic, std::span<double> sums);
+                    bool apic, std::span<double> sums, const FollowedMotion& followed = {});
 
 /// What grid_to_points does in a pass, and from which fields.
 struct PointUpdate {

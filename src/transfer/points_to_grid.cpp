@@ -7,10 +7,11 @@ namespace wisp {
 namespace {
 
 /// One pass over the points, every point's numbers spread over its functions as records.
-template <int dim, Gather what, bool apic, class Basis, class State>
+template <int dim, Gather what, bool apic, bool follow, class Basis, class State>
 __attribute__((flatten)) void add_points(const Basis basis, const Space<dim>& space,
                                          const Particles<dim>& points, const std::vector<State>& states,
-                                         const Vec<dim> gravity, double* const sums) {
+                                         const Vec<dim> gravity, double* const sums,
+                                         const FollowedMotion followed) {
   constexpr int stride = sums_stride<dim>;
   const int n = points.size();
   const Vec<dim>* const position = points.position.data();
@@ -30,7 +31,16 @@ __attribute__((flatten)) void add_points(const Basis basis, const Space<dim>& sp
         for (int d = 0; d < dim; ++d) r.value[1 + d] = m * velocity[p][d];
     }
     if constexpr (what != Gather::inertia) {
-      const Mat<dim> tau = matrix<dim>(state[p].stress);
+      Mat<dim> tau = matrix<dim>(state[p].stress);
+      if constexpr (follow) {
+        Mat<dim> dF = Mat<dim>::Identity();
+        stencil.for_each([&](int, int i, double, const Vec<dim>& dphi) {
+          const double* const v = followed.velocity.data() + i * dim;
+          for (int d = 0; d < dim; ++d)
+            for (int e = 0; e < dim; ++e) dF(d, e) += followed.dt * v[d] * dphi[e];
+        });
+        tau = (tau * dF.inverse().transpose()).eval();
+      }
       for (int d = 0; d < dim; ++d) {
         r.value[1 + dim + d] = m * gravity[d];
         for (int e = 0; e < dim; ++e) r.gradient[e][1 + dim + d] = -volume[p] * tau(d, e);
@@ -47,11 +57,12 @@ __attribute__((flatten)) void add_points(const Basis basis, const Space<dim>& sp
   }
 }
 
-template <int dim, Gather what, bool apic>
-void add_body(const Space<dim>& space, const Body<dim>& body, const Vec<dim>& gravity, double* sums) {
+template <int dim, Gather what, bool apic, bool follow = false>
+void add_body(const Space<dim>& space, const Body<dim>& body, const Vec<dim>& gravity, double* sums,
+              const FollowedMotion& followed = {}) {
   std::visit(
       [&](const auto& basis, const auto& material) {
-        add_points<dim, what, apic>(basis, space, body.points, material.old, gravity, sums);
+        add_points<dim, what, apic, follow>(basis, space, body.points, material.old, gravity, sums, followed);
       },
       space.basis(), body.material);
 }
@@ -60,9 +71,12 @@ void add_body(const Space<dim>& space, const Body<dim>& body, const Vec<dim>& gr
 
 template <int dim>
 void points_to_grid(const Space<dim>& space, const Body<dim>& body, Gather what, const Vec<dim>& gravity,
-                    bool apic, std::span<double> sums) {
+                    bool apic, std::span<double> sums, const FollowedMotion& followed) {
   double* const s = sums.data();
-  if (what == Gather::force)
+  if (what == Gather::both && !followed.velocity.empty() && body.finite_strain())
+    apic ? add_body<dim, Gather::both, true, true>(space, body, gravity, s, followed)
+         : add_body<dim, Gather::both, false, true>(space, body, gravity, s, followed);
+  else if (what == Gather::force)
     add_body<dim, Gather::force, false>(space, body, gravity, s);
   else if (what == Gather::both)
     apic ? add_body<dim, Gather::both, true>(space, body, gravity, s)
@@ -73,8 +87,8 @@ void points_to_grid(const Space<dim>& space, const Body<dim>& body, Gather what,
 }
 
 template void points_to_grid<2>(const Space<2>&, const Body<2>&, Gather, const Vec<2>&, bool,
-                                std::span<double>);
+                                std::span<double>, const FollowedMotion&);
 template void points_to_grid<3>(const Space<3>&, const Body<3>&, Gather, const Vec<3>&, bool,
-                                std::span<double>);
+                                std::span<double>, const FollowedMotion&);
 
 }  // namespace wisp

@@ -196,15 +196,15 @@ TEST(Walls, DoTheWorkThatTheBodyGains) {
       Curve velocity;
       velocity.times = {0.0, 0.01, 1.0}, velocity.values = {0.0, 0.1, 0.1};
       if (by_displacement) {
-        o.boundaries[0].displacement = Curve();
-        auto& curve = *o.boundaries[0].displacement;
+        std::get<ConformingOptions>(o.boundaries[0]).displacement = Curve();
+        auto& curve = *std::get<ConformingOptions>(o.boundaries[0]).displacement;
         curve.times.clear(), curve.values.clear();
         for (int k = 0; k <= 400; ++k) {
           const double t = 1e-3 * k;
           curve.times.push_back(t), curve.values.push_back(t < 0.01 ? 5.0 * t * t : 5e-4 + 0.1 * (t - 0.01));
         }
       } else {
-        o.boundaries[0].velocity = velocity;
+        std::get<ConformingOptions>(o.boundaries[0]).velocity = velocity;
       }
       const Mass mass = apply(kind, o);
       Model<2> model(o);

@@ -39,7 +39,7 @@ inline ConformingOptions& hold(ModelOptions& o, const char* normal, double at,
   ConformingOptions c;
   c.label = std::string(normal) + " = " + std::to_string(at), c.normal = normal, c.at = at;
   for (const char d : directions) c.directions.emplace_back(1, d);
-  return o.boundaries.emplace_back(c);
+  return std::get<ConformingOptions>(o.boundaries.emplace_back(c));
 }
 
 /// Fixes directions at a node.

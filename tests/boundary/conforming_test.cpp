@@ -1,5 +1,5 @@
 // Conditions on lines, planes, nodes and parts of them; how they are prescribed in time.
-#include "boundary/conforming.h"
+#include "boundary/list.h"
 
 #include <gtest/gtest.h>
 
@@ -82,9 +82,9 @@ TEST(Conforming, IsPrescribedByVelocity) {
 
 TEST(Conforming, TheLastConditionWins) {
   const auto s = scene<2>(2);
-  const std::vector<Conforming<2>> conditions{Conforming<2>(on("x", 0.0, {"x", "y"}), *s.space),
-                                              Conforming<2>(on("y", 0.0, {"y"}), *s.space)};
-  const Constraints<2> c(conditions, s.space->n_functions());
+  const std::vector<AnyBoundary<2>> conditions{Conforming<2>(on("x", 0.0, {"x", "y"}), *s.space),
+                                               Conforming<2>(on("y", 0.0, {"y"}), *s.space)};
+  const Constraints<2> c = constraints_of(conditions, s.space->n_functions());
   const auto at = [&](int i, int j) {
     return static_cast<std::size_t>(2 * s.space->window().node_index({i, j}));
   };

@@ -119,9 +119,9 @@ TEST(Checkpoint, RanksWriteOneSet) {
   test::run_as_ranks(3, [&](const OutputRanks& place) {
     expect_same(read_latest_checkpoint(folder.path(), place), sample(3, place.rank));
   });
-  const auto parts = read_latest_parts(folder.path());
-  ASSERT_EQ(parts.size(), 3u);
-  expect_same(parts[2], sample(3, 2));
+  const auto parts = latest_checkpoint_parts(folder.path());
+  ASSERT_EQ(parts.n(), 3);
+  expect_same(parts.read(2), sample(3, 2));
   EXPECT_NE(message_of<InputError>([&] {
               read_latest_checkpoint(folder.path());
             }).find("written by 3 ranks, this run has 1"),
@@ -134,7 +134,7 @@ TEST(Checkpoint, RanksWriteOneSet) {
     expect_same(read_latest_checkpoint(folder.path(), place, &passed_over), sample(2, place.rank));
     EXPECT_EQ(passed_over.size(), 1u);
   });
-  EXPECT_EQ(read_latest_parts(folder.path()).front().step, 2);
+  EXPECT_EQ(latest_checkpoint_parts(folder.path()).set.step, 2);
 }
 
 TEST(Checkpoint, AFailingRankLeavesTheEarlierSet) {

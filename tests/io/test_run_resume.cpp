@@ -173,7 +173,7 @@ TEST_P(Resume, HasTheSameBits) {
   run_case(GetParam().text.read(), straight, Talk::quiet);
   fs::copy(straight, stopped, fs::copy_options::recursive);
   turn_back(stopped);
-  resume_run(stopped, Talk::quiet);
+  resume_run(stopped, {}, Talk::quiet);
   expect_same_checkpoint(straight, stopped, GetParam().von_mises);
   int files = 0;
   for (const auto& entry : fs::directory_iterator(straight)) {

@@ -62,6 +62,26 @@ TEST(InternalForce, AnImplicitCommitIsAnExplicitUpdate) {
   });
 }
 
+TEST(InternalForce, OfAStressThatHasFollowedAMotionIsThatOfTheImplicitStep) {
+  for_each_basis_and_law([]<int dim, int width>(const AnyLaw& law) {
+    auto s = scene<dim>(law, width), t = scene<dim>(law, width);
+    const double dt = 0.5;
+    const std::vector<double> v = Random(2).field(s.n() * dim, 0.1);
+    std::vector<double> u(v), force(v.size(), 0.0), sums(s.n() * sums_stride<dim>, 0.0);
+    for (double& x : u) x *= dt;
+    StoredStencils<dim> stencils;
+    tabulate(*s.space, s.points(), stencils);
+    ASSERT_EQ(add_internal_force<dim>(stencils, s.body(), u, dt, force), 0);
+    PointUpdate update;
+    update.dt = dt, update.strain = true, update.domains = false, update.strain_velocity = v;
+    grid_to_points<dim>(*t.space, t.body(), update);
+    points_to_grid<dim>(*t.space, t.body(), Gather::both, Vec<dim>::Zero(), false, sums, {v, dt});
+    for (std::size_t i = 0; i < s.n(); ++i)
+      for (std::size_t d = 0; d < dim; ++d)
+        ASSERT_NEAR(force[i * dim + d], -sums[i * sums_stride<dim> + 1 + dim + d], 1e-12 * largest(force));
+  });
+}
+
 TEST(InternalForce, IsTheDerivativeOfTheStrainEnergy) {
   for_each_basis_and_law([]<int dim, int width>(const AnyLaw& law) {
     if (std::holds_alternative<VonMises>(law)) return;  // dissipates

@@ -39,7 +39,7 @@ void for_each_stencil(const Model<2>& model, F&& f) {
 Position settle_at(Model<2>& model, int components) {
   model.settle();
   const ActiveCells cells = active_cells(*model.space, model.bodies);
-  Position position{ghost_facets(*model.space, cells, model.bodies, held_edges(model.conditions)),
+  Position position{ghost_facets(*model.space, cells, model.bodies, held_edges(model.boundaries)),
                     active_functions(*model.space, cells),
                     {}};
   position.unknowns = DofMap(

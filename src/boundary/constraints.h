@@ -1,0 +1,30 @@
+// Unknowns of the grid that conditions hold.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace wisp {
+
+/// Which unknowns are held, and by how much they move: arrays over (function, direction).
+template <int dim>
+struct Constraints {
+  std::vector<char> fixed;     ///< n_functions x dim flags
+  std::vector<int> condition;  ///< n_functions x dim: index of the boundary, -1 where free; the last one wins
+  bool any = false;            ///< also on a rank that holds nothing: it must exchange like the others
+  std::vector<double> motion;  ///< one a boundary: what its unknowns do now, see `set_increments` in list.h
+
+  Constraints() = default;
+  Constraints(int n_functions, std::size_t n_boundaries)
+      : fixed(static_cast<std::size_t>(n_functions) * dim, 0),
+        condition(static_cast<std::size_t>(n_functions) * dim, -1),
+        motion(n_boundaries, 0.0) {}
+
+  void hold(int function, int direction, std::size_t boundary) {
+    const auto k = static_cast<std::size_t>(function * dim + direction);
+    fixed[k] = 1, condition[k] = static_cast<int>(boundary);
+  }
+  /// What a held unknown does now.
+  double prescribed(std::size_t k) const { return motion[static_cast<std::size_t>(condition[k])]; }
+};
+
+}  // namespace wisp

@@ -1,0 +1,115 @@
+// Every boundary that a case file can name. A new one is one file and one word here.
+//
+// A boundary has a name() and any of these hooks; absent ones cost nothing:
+//     constrain(index, Constraints&)      once: holds unknowns of the grid
+//     increment(t, dt), velocity(t, dt)   what the held unknowns do in a step
+//     on_edge(direction, side)            holds a whole edge of the grid
+//     holds(direction)                    its reaction has a component there
+//     reaction, moment                    members, if it finds its reactions itself
+#pragma once
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "boundary/conforming.h"
+#include "boundary/wall.h"
+
+namespace wisp {
+
+using AnyBoundaryOptions = std::variant<ConformingOptions, WallOptions>;
+template <>
+inline constexpr int default_alternative<AnyBoundaryOptions> = 0;
+
+template <int dim>
+using AnyBoundary = std::variant<Conforming<dim>, Wall<dim>>;
+
+template <int dim>
+AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space) {
+  if (const auto* conforming = std::get_if<ConformingOptions>(&options))
+    return Conforming<dim>(*conforming, space);
+  return Wall<dim>(std::get<WallOptions>(options));
+}
+
+template <int dim>
+const std::string& name(const AnyBoundary<dim>& boundary) {
+  return std::visit([](const auto& b) -> const std::string& { return b.name(); }, boundary);
+}
+
+/// Calls f(boundary, index) for every boundary of one type.
+template <template <int> class B, int dim, class F>
+void for_each(std::vector<AnyBoundary<dim>>& boundaries, F&& f) {
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    if (auto* b = std::get_if<B<dim>>(&boundaries[k])) f(*b, k);
+}
+template <template <int> class B, int dim, class F>
+void for_each(const std::vector<AnyBoundary<dim>>& boundaries, F&& f) {
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    if (const auto* b = std::get_if<B<dim>>(&boundaries[k])) f(*b, k);
+}
+
+/// Whether the reaction of a boundary can have a component in a direction.
+template <int dim>
+bool holds(const AnyBoundary<dim>& boundary, int direction) {
+  return std::visit(
+      [&](const auto& b) {
+        if constexpr (requires { b.holds(direction); }) return b.holds(direction);
+        return true;
+      },
+      boundary);
+}
+
+/// The unknowns that the boundaries hold.
+template <int dim>
+Constraints<dim> constraints_of(const std::vector<AnyBoundary<dim>>& boundaries, int n_functions) {
+  Constraints<dim> c(n_functions, boundaries.size());
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    std::visit(
+        [&](const auto& b) {
+          if constexpr (requires { b.constrain(k, c); }) b.constrain(k, c), c.any = true;
+        },
+        boundaries[k]);
+  return c;
+}
+
+/// Sets `motion` to the displacement (m) over a step from t to t + dt.
+template <int dim>
+void set_increments(const std::vector<AnyBoundary<dim>>& boundaries, double t, double dt,
+                    Constraints<dim>& c) {
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    std::visit(
+        [&](const auto& b) {
+          if constexpr (requires { b.constrain(k, c); }) c.motion[k] = b.increment(t, dt);
+        },
+        boundaries[k]);
+}
+
+/// Sets `motion` to the velocity (m/s) at the end of a step from t to t + dt.
+template <int dim>
+void set_velocities(const std::vector<AnyBoundary<dim>>& boundaries, double t, double dt,
+                    Constraints<dim>& c) {
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    std::visit(
+        [&](const auto& b) {
+          if constexpr (requires { b.constrain(k, c); }) c.motion[k] = b.velocity(t, dt);
+        },
+        boundaries[k]);
+}
+
+/// Which edges of the grid the boundaries hold: entry 2 d + side, side 0 the lower and 1 the upper edge of
+/// direction d.
+template <int dim>
+std::array<bool, 2 * dim> held_edges(const std::vector<AnyBoundary<dim>>& boundaries) {
+  std::array<bool, 2 * dim> held{};
+  for (const auto& boundary : boundaries)
+    std::visit(
+        [&](const auto& b) {
+          for (int d = 0; d < dim; ++d)
+            for (int side = 0; side < 2; ++side)
+              if constexpr (requires { b.on_edge(d, side); })
+                held[static_cast<std::size_t>(2 * d + side)] |= b.on_edge(d, side);
+        },
+        boundary);
+  return held;
+}
+
+}  // namespace wisp
