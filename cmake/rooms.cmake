@@ -10,6 +10,7 @@ pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET SLEPc)
 pkg_check_modules(MPI REQUIRED IMPORTED_TARGET ompi-cxx)
 pkg_check_modules(TOML REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)
+pkg_check_modules(QHULL REQUIRED IMPORTED_TARGET qhull_r)
 
 # The interpreter that has NumPy and Matplotlib (Debian's), not whichever comes first on the path.
 find_program(WISP_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)

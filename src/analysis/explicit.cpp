@@ -61,7 +61,7 @@ double Explicit<dim>::time_step(double end) const {
     run_error(
         "explicit: no body has a wave speed (stiffness or density is zero), so the CFL number gives no time "
         "step; set dt or steps");
-  return std::min(rest, options_.cfl * model_.space->grid().shortest_side() / Session::max(speed));
+  return std::min(rest, options_.cfl * model_.space->shortest_extent() / Session::max(speed));
 }
 
 template <int dim>
@@ -83,14 +83,15 @@ void Explicit<dim>::assemble_mass() {
   const auto& ghost = model_.options.stabilisation;
   // A series of the mass converges without a penalty, not with one.
   const bool with_ghost = ghost && options_.mass == Mass::consistent;
-  if (with_ghost) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries));
+  if (with_ghost)
+    facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), ghost->elements);
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);
   mass_.end_pattern();
   add_consistent_mass(space, model_.bodies, mass_);
   if (with_ghost) add_ghost(space, facets, *ghost, GhostMatrix::mass, mass_);
-  std::vector<char> active = active_functions(space, cells);
+  std::vector<char> active = active_functions(space, with_ghost ? ghost_cells(space, cells, *ghost) : cells);
   for (std::size_t i = 0; i < active.size(); ++i)
     if (!with_ghost && sums_[i * sums_stride<dim>] <= 0.0) active[i] = 0;
   std::vector<double> lumped(active.size());

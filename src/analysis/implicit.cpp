@@ -86,14 +86,16 @@ void Implicit<dim>::set_up(double dt) {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       tabulate(space, model_.bodies[b].points, stencils_[b]);
     cells = active_cells(space, model_.bodies);
-    active_ = active_functions(space, cells);
+    const auto& ghost = model_.options.stabilisation;
+    active_ = active_functions(space, ghost ? ghost_cells(space, cells, *ghost) : cells);
     external_force(model_.time + dt, external_);
     external_force(model_.time, start_external_);
   }
   const auto timer = model_.timers.start("2 ghost matrix");
   const auto& options = model_.options.stabilisation;
   std::vector<GhostFacet> facets;
-  if (options) facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries));
+  if (options)
+    facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), options->elements);
   ghost_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, ghost_);
   add_ghost_pattern(space, facets, ghost_);

@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "grid/triangulate.h"
 #include "parallel/migrate.h"
 #include "particle/order.h"
 #include "particle/sampling.h"
+#include "particle/triangle_sampling.h"
 
 namespace wisp {
 
@@ -26,8 +28,29 @@ MultiIndex<dim> cell_of(const StructuredGrid<dim>& grid, const Vec<dim>& x) {
 
 template <int dim>
 Model<dim>::Model(const ModelOptions& given) : options(given) {
-  const StructuredGrid<dim> grid(options.grid);
+  if (options.triangulation)
+    sample_on_triangulation();
+  else
+    sample_on_grid();
+  keep_owned();
+  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space));
+  constraints = constraints_of(boundaries, space->n_functions());
+  for (const auto& o : options.loads) loads.emplace_back(o, bodies);
+  for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
+  reactions.assign(boundaries.size(), Vec<dim>::Zero());
+  settle();
+}
+
+template <int dim>
+void Model<dim>::sample_on_grid() {
   const bool domains = std::holds_alternative<GimpOptions>(options.basis);
+  if (!domains && !std::holds_alternative<LinearOptions>(options.basis))
+    input_error("basis '{}' needs a triangulation; structured grids have linear and gimp",
+                std::visit([](const auto& o) { return o.name; }, options.basis));
+  for (const auto& body : options.bodies)
+    if (body.sampling.method == SamplingMethod::random || body.sampling.volumes == PointVolumes::voronoi)
+      input_error("body '{}': random points and Voronoi volumes need a triangulation", body.label);
+  const StructuredGrid<dim> grid(options.grid);
   std::vector<Sampler<dim>> samplers;
   std::vector<MultiIndex<dim>> cells;
   for (const auto& body : options.bodies) {
@@ -40,25 +63,44 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
     bodies.push_back(sampler.points(space->window().owned_cells(), domains, id));
     id += sampler.count();
   }
-  keep_owned();
-  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space));
-  constraints = constraints_of(boundaries, space->n_functions());
-  for (const auto& o : options.loads) loads.emplace_back(o, bodies);
-  for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
-  reactions.assign(boundaries.size(), Vec<dim>::Zero());
-  settle();
+}
+
+template <int dim>
+void Model<dim>::sample_on_triangulation() {
+  if constexpr (dim == 2) {
+    if (Session::size() > 1)
+      input_error("grids of triangles run on one rank, but {} were started; use --ranks 1", Session::size());
+    const auto mesh =
+        std::make_shared<const Triangulation>(make_triangulation(*options.triangulation, options.folder));
+    std::int64_t id = 0;
+    for (const auto& body : options.bodies) {
+      bodies.push_back(sample(body, *mesh, id, options.folder));
+      id += bodies.back().points.size();
+    }
+    space = std::make_unique<Space<2>>(mesh, options.basis);
+  } else {
+    input_error("grids of triangles are for 2D; in 3D use a structured grid");
+  }
+}
+
+/// Writes the cells of points.
+template <int dim>
+Location Model<dim>::find_cells(Particles<dim>& points) const {
+  if constexpr (dim == 2)
+    if (!space->structured()) return locate(points, space->triangulation());
+  return locate(points, space->grid(), space->window());
 }
 
 template <int dim>
 void Model<dim>::keep_owned() {
   for (auto& body : bodies) {
-    const Location found = locate(body.points, space->grid(), space->window());
+    const Location found = find_cells(body.points);
     const int outside = Session::rank() == 0 ? -1 : 0;  // rank 0 keeps those too
     std::vector<char> gone(body.points.cell.size());
     for (std::size_t p = 0; p < gone.size(); ++p)
       gone[p] = body.points.cell[p] < 0 && body.points.cell[p] != outside;
     remove(body, gone);
-    if (found.outside == 0 || Session::rank() != 0) reorder(body, space->window().n_cells());
+    if (found.outside == 0 || Session::rank() != 0) reorder(body, space->n_cells());
   }
 }
 
@@ -102,7 +144,7 @@ void Model<dim>::settle() {
   Eigen::Matrix<int, 2, 1> found(0, 0);
   std::vector<Location> locations;
   for (auto& body : bodies) {
-    locations.push_back(locate(body.points, space->grid(), space->window()));
+    locations.push_back(find_cells(body.points));
     found += Eigen::Matrix<int, 2, 1>(locations.back().outside, locations.back().elsewhere);
   }
   if (Session::size() > 1) found = Session::sum(found);
@@ -111,7 +153,7 @@ void Model<dim>::settle() {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bool moved = found[0] > 0 || found[1] > 0;
     if (moved || locations[b].disorder > tolerated_disorder * bodies[b].points.size())
-      reorder(bodies[b], space->window().n_cells());
+      reorder(bodies[b], space->n_cells());
   }
   if (space->domains()) choose_width();
   if (tractions.empty()) return;
@@ -134,10 +176,10 @@ void Model<dim>::remove_outside(std::size_t outside) {
         examples += fmt::format("{}{:.6g}", d ? ", " : "", body.points.position[p][d]);
       examples += ")";
     }
-    if (options.grid.leaving == Leaving::remove) remove(body, gone);
+    if (options.leaving() == Leaving::remove) remove(body, gone);
   }
   removed += static_cast<std::int64_t>(outside);
-  if (options.grid.leaving == Leaving::remove) return;
+  if (options.leaving() == Leaving::remove) return;
   std::string error;
   if (!examples.empty())
     error = fmt::format(
@@ -161,7 +203,7 @@ void Model<dim>::migrate() {
       const bool used = Session::any_of(!field.empty());
       if (used) migration.move(field);
     });
-    locate(body.points, space->grid(), space->window());
+    find_cells(body.points);
   }
 }
 
@@ -208,7 +250,7 @@ std::string Model<dim>::oversized_domain() const {
 
 template <int dim>
 bool Model<dim>::rebalance() {
-  if (Session::size() == 1) return false;
+  if (Session::size() == 1 || !space->structured()) return false;
   std::int64_t n = 0;
   for (const auto& body : bodies) n += body.points.size();
   if (imbalance(n) <= 1.1) return false;

@@ -10,9 +10,11 @@
 #include "boundary/list.h"
 #include "boundary/loads.h"
 #include "core/timers.h"
+#include "grid/triangulation_options.h"
 #include "linear/solver.h"
 #include "particle/body.h"
 #include "particle/body_options.h"
+#include "particle/order.h"
 #include "stabilise/ghost_options.h"
 
 namespace wisp {
@@ -20,6 +22,7 @@ namespace wisp {
 /// The parts of a case that do not depend on its stages.
 struct ModelOptions {
   StructuredGridOptions grid;
+  std::optional<AnyTriangulationOptions> triangulation;  ///< instead of the structured grid (2D)
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
   std::vector<AnyBoundaryOptions> boundaries;
@@ -29,13 +32,17 @@ struct ModelOptions {
   std::optional<GhostOptions> stabilisation;
   SolverOptions solver;
   std::filesystem::path folder;  ///< where relative file names start
+
+  Leaving leaving() const {
+    return triangulation ? std::visit([](const auto& t) { return t.leaving; }, *triangulation) : grid.leaving;
+  }
 };
 
 /// A run on this rank. Plain members: analyses change them, output reads them.
 template <int dim>
 struct Model {
-  /// Splits the grid by the points of the bodies and samples those of this rank. Collective. Errors:
-  /// InputError.
+  /// Splits the grid by the points of the bodies and samples those of this rank. Collective. Errors
+  /// (InputError): also a triangulation on several ranks or in 3D, a basis that the grid does not have.
   explicit Model(const ModelOptions& options);
 
   ModelOptions options;
@@ -78,6 +85,9 @@ struct Model {
   void keep_owned();
 
  private:
+  void sample_on_grid();
+  void sample_on_triangulation();
+  Location find_cells(Particles<dim>& points) const;
   void remove_outside(std::size_t outside);
   void migrate();
   void choose_width();

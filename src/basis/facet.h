@@ -1,15 +1,32 @@
 // Jumps of normal derivatives across facets: what a ghost penalty needs from a basis.
 #pragma once
 #include <array>
+#include <vector>
 
 #include "basis/space.h"
 
 namespace wisp {
 
-/// A facet between cell `lower` (local index) and its upper neighbour in `direction`.
+/// A facet between cell `lower` (local index) and its upper neighbour in `direction`. On triangulations
+/// `lower` is the number of an edge (direction 0), or of a triangle with all that lies inside it (direction
+/// 1).
 struct Facet {
   int lower = 0;
   int direction = 0;
+};
+
+/// Which edges of the grid are held by conditions, so that bodies have no free edge there.
+template <int dim>
+struct HeldEdges {
+  std::array<bool, 2 * dim>
+      side{};              ///< structured grids: entry 2 d + side, side 0 the lower edge of direction d
+  std::vector<char> edge;  ///< triangulations: flags of edges; those beyond its end are free
+
+  HeldEdges() = default;
+  HeldEdges(const std::array<bool, 2 * dim>& sides) : side(sides) {}  // NOLINT: an array says it all
+  bool holds(int e) const {
+    return static_cast<std::size_t>(e) < edge.size() && edge[static_cast<std::size_t>(e)];
+  }
 };
 
 /// Gauss points on a facet with the jump of the normal derivative of every function of its two cells:

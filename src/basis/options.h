@@ -1,12 +1,14 @@
 // What a case file says about the basis.
 #pragma once
 #include "core/describe.h"
+#include "grid/control_triangle.h"
 
 namespace wisp {
 
 struct LinearOptions {
   static constexpr std::string_view name = "linear";
-  static constexpr std::string_view summary = "Multilinear hat functions, points without extent (sMPM)";
+  static constexpr std::string_view summary =
+      "Linear hat functions of cells or triangles, points without extent (sMPM)";
   static constexpr std::string_view source = "Sulsky et al. 1994";
   static constexpr auto keys() { return std::tuple{}; }
 };
@@ -19,6 +21,41 @@ struct GimpOptions {
   static constexpr auto keys() { return std::tuple{}; }
 };
 
-using AnyBasisOptions = std::variant<LinearOptions, GimpOptions>;
+struct LagrangeQuadraticOptions {
+  static constexpr std::string_view name = "lagrange-quadratic";
+  static constexpr std::string_view summary =
+      "Quadratic Lagrange functions on triangles: negative in places, kinked across edges";
+  static constexpr std::string_view source = "de Koster 2018, section 3.3";
+  static constexpr auto keys() { return std::tuple{}; }
+};
+
+struct PowellSabinOptions {
+  ControlTriangleRule control_triangles = ControlTriangleRule::hull_edges;
+
+  static constexpr std::string_view name = "powell-sabin";
+  static constexpr std::string_view summary =
+      "Quadratic Powell-Sabin splines on triangles: smooth, never negative";
+  static constexpr std::string_view source = "Dierckx 1997; de Koster et al. 2021";
+  static constexpr auto keys() {
+    return std::tuple{key("control_triangles", &PowellSabinOptions::control_triangles, "",
+                          "the rule for the control triangle of each vertex")};
+  }
+};
+
+struct PowellSabinCubicOptions {
+  ControlTriangleRule control_triangles = ControlTriangleRule::hull_edges;
+
+  static constexpr std::string_view name = "powell-sabin-cubic";
+  static constexpr std::string_view summary =
+      "Cubic Powell-Sabin splines on triangles: smooth, never negative";
+  static constexpr std::string_view source = "Groselj and Speleers 2017";
+  static constexpr auto keys() {
+    return std::tuple{key("control_triangles", &PowellSabinCubicOptions::control_triangles, "",
+                          "the rule for the control triangle of each vertex")};
+  }
+};
+
+using AnyBasisOptions = std::variant<LinearOptions, GimpOptions, LagrangeQuadraticOptions, PowellSabinOptions,
+                                     PowellSabinCubicOptions>;
 
 }  // namespace wisp

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "basis/trace.h"
 #include "core/error.h"
 
 namespace wisp {
@@ -39,9 +40,11 @@ void check_length(const std::vector<double>& list, const char* key, const std::s
 template <int dim>
 Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& space) : options_(options) {
   const auto& label = options.label;
-  const StructuredGrid<dim>& grid = space.grid();
-  if (options.normal.empty() == options.node.empty())
-    input_error("boundary '{}': give either normal and at (a grid line or plane), or node", label);
+  if (options.normal.empty() + options.node.empty() + options.part.empty() != 2)
+    input_error(
+        "boundary '{}': give either normal and at (a grid line or plane), or node, or part (of a "
+        "triangulation)",
+        label);
   if (options.displacement && options.velocity)
     input_error("boundary '{}': give either displacement or velocity", label);
   if (options.directions.empty())
@@ -51,7 +54,20 @@ Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& 
   check_length<dim>(options.node, "node", label);
   check_length<dim>(options.lower, "lower", label);
   check_length<dim>(options.upper, "upper", label);
+  if constexpr (dim == 2)
+    if (!space.structured()) {
+      hold_triangulation(space);
+      return;
+    }
+  hold_nodes(space);
+}
 
+template <int dim>
+void Conforming<dim>::hold_nodes(const Space<dim>& space) {
+  const ConformingOptions& options = options_;
+  const auto& label = options.label;
+  const StructuredGrid<dim>& grid = space.grid();
+  if (!options.part.empty()) input_error("boundary '{}': part needs a triangulation", label);
   IndexBox<dim> held = space.window().grid_nodes();
   if (!options.normal.empty()) {
     const int d = direction_of(options.normal, dim, label, "normal");
@@ -85,6 +101,54 @@ Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& 
   for_each_in(held, [&](const MultiIndex<dim>& i) {
     if (space.window().contains_node(i)) functions_.push_back(space.window().node_index(i));
   });
+}
+
+template <int dim>
+void Conforming<dim>::hold_triangulation(const Space<2>& space) {
+  const Triangulation& mesh = space.triangulation();
+  const auto& label = options_.label;
+  const double tolerance = 1e-6 * mesh.shortest_height();
+  const auto in_bounds = [&](int v) {
+    for (int d = 0; d < 2; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      if (!options_.lower.empty() && mesh.vertex(v)[d] < options_.lower[k] - tolerance) return false;
+      if (!options_.upper.empty() && mesh.vertex(v)[d] > options_.upper[k] + tolerance) return false;
+    }
+    return true;
+  };
+  std::vector<int> vertices;  // that are held alone
+  std::vector<int> candidates;
+  if (!options_.part.empty()) {
+    const NamedPart& part = mesh.part(options_.part);
+    candidates = part.edges;
+    if (part.edges.empty()) vertices = part.vertices;
+  } else if (!options_.node.empty()) {
+    for (int v = 0; v < mesh.n_vertices(); ++v)
+      if ((mesh.vertex(v) - Vec<2>(options_.node[0], options_.node[1])).norm() <= tolerance) vertices = {v};
+    if (vertices.empty())
+      input_error("boundary '{}': no vertex at ({}, {})", label, options_.node[0], options_.node[1]);
+  } else {
+    const int d = direction_of(options_.normal, 2, label, "normal");
+    for (int e = 0; e < mesh.n_edges(); ++e) {
+      const auto& ends = mesh.edge(e).vertex;
+      if (std::abs(mesh.vertex(ends[0])[d] - options_.at) <= tolerance &&
+          std::abs(mesh.vertex(ends[1])[d] - options_.at) <= tolerance)
+        candidates.push_back(e);
+    }
+    if (candidates.empty())
+      input_error("boundary '{}': no edge of a triangle lies on {} = {}", label, "xy"[d], options_.at);
+  }
+  for (const int e : candidates)
+    if (in_bounds(mesh.edge(e).vertex[0]) && in_bounds(mesh.edge(e).vertex[1])) edges_.push_back(e);
+  std::erase_if(vertices, [&](int v) { return !in_bounds(v); });
+  if (edges_.empty() && vertices.empty())
+    input_error("boundary '{}': none of its edges lies between lower and upper", label);
+  try {
+    visit_on_triangles(space,
+                       [&](const auto& basis) { functions_ = trace_functions(basis, edges_, vertices); });
+  } catch (const InputError& error) {
+    input_error("boundary '{}': {}", label, error.what());
+  }
 }
 
 template <int dim>

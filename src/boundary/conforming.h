@@ -14,8 +14,8 @@ namespace wisp {
 template <int dim>
 class Conforming {
  public:
-  /// Errors (InputError): neither or both of normal and node, no grid line or node there, unknown directions,
-  /// both displacement and velocity.
+  /// Errors (InputError): not one of normal, node and part, no grid line, node or part there, unknown
+  /// directions, both displacement and velocity; on triangulations functions that cannot be fixed one by one.
   Conforming(const ConformingOptions& options, const Space<dim>& space);
 
   const std::string& name() const { return options_.label; }
@@ -38,10 +38,15 @@ class Conforming {
   bool on_edge(int direction, int side) const {
     return edge_[static_cast<std::size_t>(2 * direction + side)];
   }
+  /// The edges of a triangulation along which it holds the motion.
+  const std::vector<int>& edges() const { return edges_; }
 
  private:
+  void hold_nodes(const Space<dim>& space);
+  void hold_triangulation(const Space<2>& space);
+
   ConformingOptions options_;
-  std::vector<int> functions_;
+  std::vector<int> functions_, edges_;
   std::array<bool, dim> holds_{};
   std::array<bool, 2 * dim> edge_{};
 };

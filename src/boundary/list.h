@@ -4,13 +4,16 @@
 //     constrain(index, Constraints&)      once: holds unknowns of the grid
 //     increment(t, dt), velocity(t, dt)   what the held unknowns do in a step
 //     on_edge(direction, side)            holds a whole edge of the grid
+//     edges()                             edges of a triangulation that it holds
 //     holds(direction)                    its reaction has a component there
 //     reaction, moment                    members, if it finds its reactions itself
 #pragma once
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "basis/facet.h"
 #include "boundary/conforming.h"
 #include "boundary/wall.h"
 
@@ -95,18 +98,22 @@ void set_velocities(const std::vector<AnyBoundary<dim>>& boundaries, double t, d
         boundaries[k]);
 }
 
-/// Which edges of the grid the boundaries hold: entry 2 d + side, side 0 the lower and 1 the upper edge of
-/// direction d.
+/// Which edges of the grid the boundaries hold.
 template <int dim>
-std::array<bool, 2 * dim> held_edges(const std::vector<AnyBoundary<dim>>& boundaries) {
-  std::array<bool, 2 * dim> held{};
+HeldEdges<dim> held_edges(const std::vector<AnyBoundary<dim>>& boundaries) {
+  HeldEdges<dim> held;
   for (const auto& boundary : boundaries)
     std::visit(
         [&](const auto& b) {
           for (int d = 0; d < dim; ++d)
             for (int side = 0; side < 2; ++side)
               if constexpr (requires { b.on_edge(d, side); })
-                held[static_cast<std::size_t>(2 * d + side)] |= b.on_edge(d, side);
+                held.side[static_cast<std::size_t>(2 * d + side)] |= b.on_edge(d, side);
+          if constexpr (requires { b.edges(); })
+            for (const int e : b.edges()) {
+              held.edge.resize(std::max(held.edge.size(), static_cast<std::size_t>(e) + 1), 0);
+              held.edge[static_cast<std::size_t>(e)] = 1;
+            }
         },
         boundary);
   return held;

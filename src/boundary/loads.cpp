@@ -20,6 +20,37 @@ Vec<dim> as_vector(const std::vector<double>& list, const char* kind, const std:
   return Eigen::Map<const Vec<dim>>(list.data());
 }
 
+template <int dim>
+std::string place(const Vec<dim>& x) {
+  std::string text;
+  for (int d = 0; d < dim; ++d) text += fmt::format("{}{:.6g}", d == 0 ? "(" : ", ", x[d]);
+  return text + ")";
+}
+
+/// Where a surface point at x acts on a triangulation: there if its triangle is active, else at the nearest
+/// place in an active triangle around the corners of its own, a little inside, as an edge may belong to the
+/// next one.
+Vec<2> host_on(const Triangulation& mesh, const Vec<2>& x, const ActiveCells& active, int bit) {
+  const int t = mesh.locate(x);
+  if (active.bits[static_cast<std::size_t>(t)] & bit) return x;
+  Vec<2> host = x;
+  double nearest = std::numeric_limits<double>::max();
+  for (const int v : mesh.triangle(t))
+    for (const int u : mesh.triangles_of_vertex(v)) {
+      if (!(active.bits[static_cast<std::size_t>(u)] & bit)) continue;
+      for (int k = 0; k < 3; ++k) {  // x is outside of u, so the nearest place is on a side
+        const Vec<2>&a = mesh.corner(u, k), &b = mesh.corner(u, (k + 1) % 3);
+        const double along = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+        const Vec<2> on_side = a + along * (b - a);
+        const double distance = (on_side - x).squaredNorm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        host = on_side + 1e-9 * (mesh.centroid(u) - on_side);
+      }
+    }
+  return host;
+}
+
 /// Calls f(function, phi, dphi) at x for a point without extent: the basis' functions with a domain of zero
 /// size.
 template <int dim, class F>
@@ -115,9 +146,8 @@ Traction<dim>::Traction(const TractionOptions& options, const std::vector<Body<d
   for_each_in(box, [&](const MultiIndex<dim>& k) {
     Vec<dim> x = corner;
     for (int e = 0; e < dim - 1; ++e) x += edge.col(e) * ((k[e] + 0.5) / box.upper[e]);
-    for (int d = 0; d < dim; ++d)
-      if (const int c = space.grid().locate_inside(d, x[d]); c < 0 || c >= space.grid().cells(d))
-        input_error("traction '{}': a surface point at {} = {} lies outside the grid", label, "xyz"[d], x[d]);
+    if (!space.contains(x))
+      input_error("traction '{}': a surface point at {} lies outside the grid", label, place(x));
     position_.push_back(x);
   });
   deformation_gradient_.assign(position_.size(), Mat<dim>::Identity());
@@ -126,6 +156,12 @@ Traction<dim>::Traction(const TractionOptions& options, const std::vector<Body<d
 
 template <int dim>
 void Traction<dim>::settle(const Space<dim>& space, const ActiveCells& active) {
+  if constexpr (dim == 2)
+    if (!space.structured()) {
+      for (std::size_t s = 0; s < position_.size(); ++s)
+        host_[s] = host_on(space.triangulation(), position_[s], active, 1 << body_);
+      return;
+    }
   const auto& window = space.window();
   const auto& grid = space.grid();
   host_ = position_;
@@ -156,6 +192,7 @@ void Traction<dim>::settle(const Space<dim>& space, const ActiveCells& active) {
 
 template <int dim>
 bool Traction<dim>::mine(const Space<dim>& space, const Vec<dim>& x) const {
+  if (!space.structured()) return true;
   MultiIndex<dim> cell;
   for (int d = 0; d < dim; ++d) cell[d] = space.grid().locate_inside(d, x[d]);
   return space.window().owns_cell(cell);
@@ -193,10 +230,9 @@ void Traction<dim>::move(const Space<dim>& space, std::span<const double> field,
     u = Session::sum(u), gradient = Session::sum(gradient);
     position_[s] += factor * u;
     host_[s] = position_[s];
-    for (int d = 0; d < dim; ++d)
-      if (const int c = space.grid().locate_inside(d, position_[s][d]); c < 0 || c >= space.grid().cells(d))
-        run_error("traction '{}': a surface point left the grid at {} = {}; use a larger grid", name(),
-                  "xyz"[d], position_[s][d]);
+    if (!space.contains(position_[s]))
+      run_error("traction '{}': a surface point left the grid at {}; use a larger grid", name(),
+                place(position_[s]));
     deformation_gradient_[s] = (Mat<dim>::Identity() + factor * gradient) * deformation_gradient_[s];
   }
 }

@@ -14,6 +14,7 @@ struct ConformingOptions {
   std::string normal;
   double at = 0.0;
   std::vector<double> node;
+  std::string part;
   std::vector<double> lower;
   std::vector<double> upper;
   std::vector<std::string> directions;
@@ -32,6 +33,7 @@ struct ConformingOptions {
         key("at", &O::at, "m", "coordinate of the grid line or plane along `normal`"),
         key("node", &O::node, "m", "position of a single grid node (instead of normal and at)")
             .per_direction(),
+        key("part", &O::part, "", "named boundary of a triangulation (instead of normal and at)"),
         key("lower", &O::lower, "m", "only nodes with coordinates not below this corner").per_direction(),
         key("upper", &O::upper, "m", "only nodes with coordinates not above this corner").per_direction(),
         key("directions", &O::directions, "", "directions that are constrained: x, y, z").required(),

@@ -5,13 +5,14 @@
 
 #include "geometry/ball.h"
 #include "geometry/box.h"
+#include "geometry/mesh_shape.h"
 #include "geometry/point_file.h"
 #include "geometry/polygon.h"
 
 namespace wisp {
 
 /// Shapes of which a body can be made.
-using AnyShape = std::variant<Box, Ball, Polygon, PointFile>;
+using AnyShape = std::variant<Box, Ball, Polygon, PointFile, MeshShape>;
 
 /// Shapes with an inside, for choosing points or nodes.
 using AnyRegion = std::variant<Box, Ball, Polygon>;

@@ -244,4 +244,28 @@ ClippedCell clip_cell(const Outline& outline, const Eigen::Vector2d& lower, cons
   return result;
 }
 
+double clipped_area(const Outline& outline, const Eigen::Vector2d& centre,
+                    const std::vector<HalfPlane>& sides) {
+  Moments sum;
+  Ring a, b;
+  for (const Ring& ring : outline.rings()) {
+    a = ring;
+    for (const HalfPlane& side : sides) {
+      b.clear();
+      if (a.empty()) break;
+      Eigen::Vector2d from = a.back();
+      double before = side.normal.dot(from - side.point);
+      for (const Eigen::Vector2d& to : a) {
+        const double now = side.normal.dot(to - side.point);
+        if ((before <= 0.0) != (now <= 0.0)) b.push_back(from + before / (before - now) * (to - from));
+        if (now <= 0.0) b.push_back(to);
+        from = to, before = now;
+      }
+      std::swap(a, b);
+    }
+    if (!a.empty()) add_moments(a, centre, sum);
+  }
+  return std::max(sum.area, 0.0);
+}
+
 }  // namespace wisp

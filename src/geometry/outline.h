@@ -52,4 +52,14 @@ struct ClippedCell {
 /// intersections to an integer grid.
 ClippedCell clip_cell(const Outline& outline, const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
 
+/// The points x with normal·(x - point) <= 0.
+struct HalfPlane {
+  Eigen::Vector2d normal, point;
+};
+
+/// Area of the part of the polygon in a convex cell, the intersection of half-planes, m²; see clip_cell.
+/// `centre` is a point in the cell, about which moments are taken.
+double clipped_area(const Outline& outline, const Eigen::Vector2d& centre,
+                    const std::vector<HalfPlane>& sides);
+
 }  // namespace wisp

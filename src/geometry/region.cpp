@@ -51,6 +51,13 @@ Region<dim> make(const PointFile&, const std::filesystem::path&) {
   input_error("points: a list of points has no inside; expected box, ball or polygon");
 }
 
+template <int dim>
+Region<dim> make(const MeshShape&, const std::filesystem::path&) {
+  input_error(
+      "mesh: points are put into its triangles, which needs a grid of triangles; expected box, ball or "
+      "polygon");
+}
+
 }  // namespace
 
 template <int dim>

@@ -12,7 +12,7 @@
 #include "boundary/list.h"
 #include "boundary/options.h"
 #include "core/describe.h"
-#include "grid/structured_options.h"
+#include "grid/options.h"
 #include "io/describe_text.h"
 #include "linear/solver.h"
 #include "particle/body_options.h"
@@ -33,7 +33,7 @@ struct CaseSource {
 struct Case {
   std::string title;
   int dimension = 2;
-  StructuredGridOptions grid;
+  AnyGridOptions grid;
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
   std::vector<AnyBoundaryOptions> boundaries;

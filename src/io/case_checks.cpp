@@ -1,11 +1,16 @@
 // Checks of a case across its tables. What one key alone admits is checked by the reader.
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <set>
 
+#include "basis/space.h"
+#include "boundary/conforming.h"
 #include "core/nearest.h"
 #include "geometry/region.h"
-#include "grid/structured.h"
+#include "grid/gmsh.h"
+#include "grid/triangulate.h"
 #include "io/case.h"
 #include "io/toml_reader.h"
 
@@ -78,10 +83,15 @@ std::string text(const Vec<dim>& x) {
 template <int dim>
 class Checks {
  public:
-  Checks(const Case& c, const Context& context)
-      : case_(c), context_(context), grid_(make_grid(c.grid, context)) {}
+  Checks(const Case& c, const Context& context) : case_(c), context_(context) {
+    if (const auto* lines = std::get_if<StructuredGridOptions>(&c.grid))
+      grid_ = make_grid(*lines, context);
+    else
+      triangulate();
+  }
 
   void all() {
+    basis();
     bodies();
     boundaries();
     loads();
@@ -92,6 +102,28 @@ class Checks {
   }
 
  private:
+  void triangulate() {
+    if constexpr (dim == 2) {
+      space_ = located(context_, "grid", [&] {
+        const auto mesh = std::make_shared<const Triangulation>(
+            make_triangulation(*triangulation_of(case_.grid), context_.file().folder));
+        return located(context_, "basis", [&] { return std::make_unique<Space<2>>(mesh, case_.basis); });
+      });
+    } else {
+      context_.fail_at("grid.type", "grids of triangles are for 2D; in 3D use a structured grid");
+    }
+  }
+  Vec<dim> lower() const {
+    if constexpr (dim == 2)
+      if (space_) return space_->triangulation().lower();
+    return grid_->lower();
+  }
+  Vec<dim> upper() const {
+    if constexpr (dim == 2)
+      if (space_) return space_->triangulation().upper();
+    return grid_->upper();
+  }
+
   static StructuredGrid<dim> make_grid(const StructuredGridOptions& g, const Context& context) {
     const bool corners = !g.lower.empty() || !g.upper.empty() || !g.cells.empty();
     if (corners && !g.coordinates.empty())
@@ -119,6 +151,14 @@ class Checks {
                         fmt::format("grid lines must increase: {} follows {}", lines[i], lines[i - 1]));
   }
 
+  void basis() {
+    const bool structured = std::holds_alternative<LinearOptions>(case_.basis) ||
+                            std::holds_alternative<GimpOptions>(case_.basis);
+    if (grid_ && !structured)
+      context_.fail_at("basis.type",
+                       "this basis needs a grid of triangles; structured grids have linear and gimp");
+  }
+
   void bodies() {
     check_unique(case_.bodies, "body", context_);
     for (std::size_t i = 0; i < case_.bodies.size(); ++i) {
@@ -131,17 +171,23 @@ class Checks {
   void shape(const BodyOptions& body, std::size_t i) {
     const std::string path = place("body", i, "shape");
     const Block<dim> box = located(context_, path, [&] {
+      if constexpr (dim == 2)
+        if (const auto* mesh = std::get_if<MeshShape>(&body.shape); mesh && space_) {
+          const Triangulation triangles = read_gmsh(context_.file().folder / mesh->file, mesh->scale);
+          if (!mesh->surface.empty()) triangles.part(mesh->surface);
+          return Block<2>{triangles.lower(), triangles.upper()};
+        }
       if (const auto* points = std::get_if<PointFile>(&body.shape))
         return bounds<dim>(read_points<dim>(*points, context_.file().folder));
       return bounds(region<dim>(body.shape, context_.file().folder));
     });
-    const double slack = 1e-9 * grid_.shortest_side();
+    const double slack = 1e-9 * (upper() - lower()).minCoeff();
     for (int d = 0; d < dim; ++d)
-      if (box.lower[d] < grid_.lower()[d] - slack || box.upper[d] > grid_.upper()[d] + slack)
+      if (box.lower[d] < lower()[d] - slack || box.upper[d] > upper()[d] + slack)
         context_.fail_at(
             path, fmt::format("body \"{}\" reaches from {} to {} m, outside of the grid from {} to {} m",
-                              body.label, text<dim>(box.lower), text<dim>(box.upper),
-                              text<dim>(grid_.lower()), text<dim>(grid_.upper())));
+                              body.label, text<dim>(box.lower), text<dim>(box.upper), text<dim>(lower()),
+                              text<dim>(upper())));
   }
 
   void sampling(const BodyOptions& body, std::size_t i) {
@@ -149,6 +195,13 @@ class Checks {
     for (const char* sampled : {"method", "points_per_cell", "divisions"})
       if (std::holds_alternative<PointFile>(body.shape) && context_.given(path + "." + sampled))
         context_.fail_at(path, "the points come from a file: there is nothing to sample");
+    const bool triangles = !std::holds_alternative<StructuredGridOptions>(case_.grid);
+    if (!triangles && body.sampling.method == SamplingMethod::random)
+      context_.fail_at(path + ".method", "random points need a grid of triangles");
+    if (!triangles && body.sampling.volumes == PointVolumes::voronoi)
+      context_.fail_at(path + ".volumes", "Voronoi volumes need a grid of triangles");
+    if (triangles && body.sampling.method == SamplingMethod::gauss)
+      context_.fail_at(path + ".method", "Gauss positions need a structured grid");
     const bool divided = body.sampling.method == SamplingMethod::divisions;
     if (divided && body.sampling.divisions.empty())
       context_.fail_at(path, "method \"divisions\" needs the key 'divisions'");
@@ -176,12 +229,12 @@ class Checks {
   /// Index of the grid line at x in direction d; error if there is none.
   void check_line(int d, double x, const std::string& path) {
     double best = std::numeric_limits<double>::infinity(), nearest_line = 0.0;
-    for (int i = 0; i <= grid_.cells(d); ++i)
-      if (const double gap = std::abs(grid_.line(d, i) - x); gap < best) {
+    for (int i = 0; i <= grid_->cells(d); ++i)
+      if (const double gap = std::abs(grid_->line(d, i) - x); gap < best) {
         best = gap;
-        nearest_line = grid_.line(d, i);
+        nearest_line = grid_->line(d, i);
       }
-    if (best > 1e-6 * grid_.shortest_side())
+    if (best > 1e-6 * grid_->shortest_side())
       context_.fail_at(
           path, fmt::format("{} = {} m is not a grid line; the nearest is {} m", "xyz"[d], x, nearest_line));
   }
@@ -194,13 +247,19 @@ class Checks {
 
   void boundary(const ConformingOptions& b, std::size_t i) {
     const auto at = [&](std::string_view key) { return place("boundary", i, key); };
-    if (b.normal.empty() == b.node.empty())
-      context_.fail_at(at(b.normal.empty() ? "" : "node"),
-                       "give either normal and at (a grid line or plane), or node");
-    if (!b.normal.empty()) {
+    if (b.normal.empty() + b.node.empty() + b.part.empty() != 2)
+      context_.fail_at(
+          at(b.normal.empty() ? "" : "node"),
+          "give either normal and at (a grid line or plane), or node, or part (of a triangulation)");
+    if (!b.normal.empty() && !context_.given(at("at")))
+      context_.fail_at(at(""), "missing key 'at' (m): coordinate along 'normal'");
+    if (space_) {
+      if constexpr (dim == 2)
+        located(context_, at(b.part.empty() ? "" : "part"), [&] { return Conforming<2>(b, *space_); });
+    } else if (!b.part.empty()) {
+      context_.fail_at(at("part"), "only grids of triangles have named boundaries");
+    } else if (!b.normal.empty()) {
       const int d = direction(b.normal, dim, at("normal"), context_);
-      if (!context_.given(at("at")))
-        context_.fail_at(at(""), "missing key 'at' (m): coordinate along 'normal'");
       check_line(d, b.at, at("at"));
     } else {
       if (context_.given(at("at"))) context_.fail_at(at("at"), "not together with node");
@@ -338,7 +397,8 @@ class Checks {
 
   const Case& case_;
   const Context& context_;
-  StructuredGrid<dim> grid_;
+  std::optional<StructuredGrid<dim>> grid_;  ///< or
+  std::unique_ptr<Space<2>> space_;          ///< a triangulation with its basis
 };
 
 }  // namespace

@@ -123,8 +123,12 @@ void store(Model<dim>& model, Checkpoint& checkpoint) {
   set(checkpoint, "reactions", model.reactions);
   checkpoint.set_number("external_work", model.external_work);
   checkpoint.set_integer("removed", model.removed);
-  const auto& partition = model.space->partition();
   Checkpoint::Integers boxes;
+  if (!model.space->structured()) {
+    checkpoint.set("boxes", std::move(boxes));
+    return;
+  }
+  const auto& partition = model.space->partition();
   for (int part = 0; part < partition.n_parts(); ++part)
     for (const auto& corner : {partition.box(part).lower, partition.box(part).upper})
       boxes.insert(boxes.end(), corner.data(), corner.data() + dim);
@@ -133,6 +137,12 @@ void store(Model<dim>& model, Checkpoint& checkpoint) {
 
 template <int dim>
 void restore(const Checkpoint& checkpoint, Model<dim>& model) {
+  if (!model.space->structured()) {
+    clear_points(model);
+    append_points(checkpoint, model);
+    restore_common(checkpoint, model);
+    return;
+  }
   const auto ranks = static_cast<std::size_t>(Session::size());
   const auto& numbers = checkpoint.integers("boxes", ranks * 2 * dim);
   std::vector<IndexBox<dim>> boxes(ranks);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "grid/structured.h"
+#include "grid/triangulate.h"
 
 namespace wisp {
 namespace {
@@ -130,22 +131,60 @@ std::string json_text(const std::string& text) {
 }
 
 template <int dim>
-std::string grid_json(const StructuredGridOptions& options) {
+std::string lines_json(const StructuredGridOptions& options) {
   const StructuredGrid<dim> grid(options);
-  std::string text;
+  std::string text = "{\"coordinates\": [";
   for (int d = 0; d < dim; ++d) {
     text += d ? ",\n  [" : "\n  [";
     for (int i = 0; i <= grid.cells(d); ++i) text += fmt::format("{}{}", i ? ", " : "", grid.line(d, i));
     text += "]";
   }
-  return text;
+  return text + "]}";
+}
+
+std::string triangles_json(const Triangulation& mesh) {
+  std::string text = "{\"points\": [";
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    text += fmt::format("{}[{}, {}]", v ? ", " : "", mesh.vertex(v).x(), mesh.vertex(v).y());
+  text += "],\n  \"cells\": [";
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    text += fmt::format("{}[{}, {}, {}]", t ? ", " : "", mesh.triangle(t)[0], mesh.triangle(t)[1],
+                        mesh.triangle(t)[2]);
+  return text + "]}";
+}
+
+std::string grid_json(const Case& c) {
+  if (const auto triangulation = triangulation_of(c.grid))
+    return triangles_json(make_triangulation(*triangulation, c.file.folder));
+  const auto& lines = std::get<StructuredGridOptions>(c.grid);
+  return c.dimension == 2 ? lines_json<2>(lines) : lines_json<3>(lines);
 }
 
 }  // namespace
 
 std::string scene_json(const Case& c) {
-  return fmt::format("{{\"title\": {},\n \"grid\": {{\"coordinates\": [{}]}}}}\n", json_text(c.title),
-                     c.dimension == 2 ? grid_json<2>(c.grid) : grid_json<3>(c.grid));
+  return fmt::format("{{\"title\": {},\n \"grid\": {}}}\n", json_text(c.title), grid_json(c));
+}
+
+VtuCells grid_cells(const Triangulation& mesh) {
+  VtuCells cells;
+  for (int v = 0; v < mesh.n_vertices(); ++v)
+    cells.positions.insert(cells.positions.end(), {mesh.vertex(v).x(), mesh.vertex(v).y(), 0.0});
+  std::vector<double> areas;
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    for (const int v : mesh.triangle(t)) cells.connectivity.push_back(v);
+    cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+    cells.types.push_back(VtuCell::triangle);
+    areas.push_back(mesh.area(t));
+  }
+  cells.cell_fields.push_back({"area", 1, std::move(areas), "m^2", {}});
+  for (const auto& part : mesh.parts()) {
+    if (part.vertices.empty()) continue;
+    std::vector<std::int64_t> on_part(static_cast<std::size_t>(mesh.n_vertices()), 0);
+    for (const int v : part.vertices) on_part[static_cast<std::size_t>(v)] = 1;
+    cells.point_fields.push_back({part.name, 1, std::move(on_part), {}, {}});
+  }
+  return cells;
 }
 
 template <int dim>
@@ -177,7 +216,7 @@ HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : ou
   if (newton_) titles_.insert(titles_.end(), {"iterations", "residual", "cuts"});
   if (output_.condition_numbers) titles_.push_back("condition number [-]");
   if (output_.critical_time_step) titles_.push_back("critical time step [s]");
-  removal_ = c.grid.leaving == Leaving::remove;
+  removal_ = leaving(c.grid) == Leaving::remove;
   if (removal_) titles_.push_back("points removed");
 }
 

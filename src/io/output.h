@@ -18,8 +18,11 @@ namespace wisp {
 template <int dim>
 VtuPoints picture(const Model<dim>& model);
 
-/// The text of scene.json: title and grid lines (see python/wisp/scene.py).
+/// The text of scene.json: title and grid lines or triangles (see python/wisp/scene.py).
 std::string scene_json(const Case& c);
+
+/// A triangulation with the areas of its triangles and a flag for the vertices of each named boundary.
+VtuCells grid_cells(const Triangulation& mesh);
 
 /// What a row of the history is made of, beside the step and time.
 template <int dim>

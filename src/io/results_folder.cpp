@@ -12,7 +12,8 @@ namespace {
 
 /// Results of an earlier run would be mixed up with those of this one; other files are left alone.
 void remove_earlier(const fs::path& folder) {
-  for (const char* name : {"checkpoint.txt", "points.pvd", "history.csv", "scene.json", "case.toml"})
+  for (const char* name :
+       {"checkpoint.txt", "points.pvd", "history.csv", "scene.json", "case.toml", "grid.vtu"})
     fs::remove(folder / name);
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -8,6 +8,7 @@
 #include "analysis/spectra.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "grid/triangulate.h"
 #include "io/checkpoint_state.h"
 #include "io/output.h"
 #include "io/results_folder.h"
@@ -23,8 +24,18 @@ namespace fs = std::filesystem;
 constexpr std::int64_t rebalance_every = 20;
 
 ModelOptions model_options(const Case& c) {
-  return {c.grid,      c.basis,   c.bodies,        c.boundaries, c.loads,
-          c.tractions, c.gravity, c.stabilisation, c.solver,     c.file.folder};
+  const auto* lines = std::get_if<StructuredGridOptions>(&c.grid);
+  return {lines ? *lines : StructuredGridOptions{},
+          triangulation_of(c.grid),
+          c.basis,
+          c.bodies,
+          c.boundaries,
+          c.loads,
+          c.tractions,
+          c.gravity,
+          c.stabilisation,
+          c.solver,
+          c.file.folder};
 }
 
 /// Explicit stages start steps from these: see Explicit::warm_velocity.
@@ -46,6 +57,7 @@ class Run {
   void start() {
     balance_ = EnergyBalance(EnergyBalance::total(energies_of_points(model_)));
     results_.emplace(ResultsFolder::start(folder_, case_, columns_.titles()));
+    show_triangulation();
     add_state();
     go();
   }
@@ -80,6 +92,17 @@ class Run {
     if (talk_ == Talk::normal) fmt::print("{}\n", text);
   }
 
+  /// A grid of triangles is a file of its own, and its quality is told.
+  void show_triangulation() const {
+    if constexpr (dim == 2) {
+      if (model_.space->structured()) return;
+      const Triangulation& mesh = model_.space->triangulation();
+      write_vtu_cells(folder_ / "grid.vtu", grid_cells(mesh));
+      tell(quality_line(mesh));
+      if (const std::string warning = sliver_warning(mesh); !warning.empty()) tell(warning);
+    }
+  }
+
   void go() {
     for (; stage_ < case_.stages.size(); ++stage_) {
       if (step_in_stage_ == 0) stage_start_ = model_.time;
@@ -90,7 +113,7 @@ class Run {
       step_in_stage_ = 0;
     }
     const double bandwidth = talk_ == Talk::normal ? triad_bandwidth() : 0.0;
-    if (model_.options.grid.leaving == Leaving::remove)
+    if (model_.options.leaving() == Leaving::remove)
       tell(fmt::format("{} points left the grid and were removed", model_.removed));
     tell(summary(folder_, times_, bandwidth));
   }

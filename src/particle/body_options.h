@@ -8,34 +8,46 @@
 
 namespace wisp {
 
-enum class SamplingMethod { cells, gauss, divisions };
+enum class SamplingMethod { cells, gauss, divisions, random };
 template <>
-inline constexpr auto choices<SamplingMethod> = choice_list<SamplingMethod>({{"cells", SamplingMethod::cells},
-                                                                             {"gauss", SamplingMethod::gauss},
-                                                                             {"divisions",
-                                                                              SamplingMethod::divisions}});
+inline constexpr auto choices<SamplingMethod> =
+    choice_list<SamplingMethod>({{"cells", SamplingMethod::cells},
+                                 {"gauss", SamplingMethod::gauss},
+                                 {"divisions", SamplingMethod::divisions},
+                                 {"random", SamplingMethod::random}});
+
+enum class PointVolumes { share, voronoi };
+template <>
+inline constexpr auto choices<PointVolumes> = choice_list<PointVolumes>({{"share", PointVolumes::share},
+                                                                         {"voronoi", PointVolumes::voronoi}});
 
 /// Where the points of a body are put. A point belongs to the body if its position lies in the shape.
 struct Sampling {
   SamplingMethod method = SamplingMethod::cells;
   int points_per_cell = 2;
   std::vector<int> divisions;
+  int seed = 1;
+  PointVolumes volumes = PointVolumes::share;
 
   static constexpr std::string_view name = "sampling";
   static constexpr std::string_view summary = "How points are laid out in a shape";
   static constexpr std::string_view source = "";
   static constexpr auto keys() {
-    return std::tuple{key("method", &Sampling::method, "",
-                          "cells: evenly in every grid cell; gauss: at Gauss positions of every cell; "
-                          "divisions: evenly in the shape's bounding box"),
-                      key("points_per_cell", &Sampling::points_per_cell, "-",
-                          "points in a cell and direction (cells, gauss)")
-                          .at_least(1)
-                          .at_most(64),
-                      key("divisions", &Sampling::divisions, "-",
-                          "number of points across the bounding box in each direction (divisions)")
-                          .at_least(1)
-                          .per_direction()};
+    return std::tuple{
+        key("method", &Sampling::method, "",
+            "cells: evenly in every grid cell; gauss: at Gauss positions of every cell; "
+            "divisions: evenly in the shape's bounding box; random: in every triangle"),
+        key("points_per_cell", &Sampling::points_per_cell, "-",
+            "points in a cell and direction (cells, gauss); of a triangle the root of their number")
+            .at_least(1)
+            .at_most(64),
+        key("divisions", &Sampling::divisions, "-",
+            "number of points across the bounding box in each direction (divisions)")
+            .at_least(1)
+            .per_direction(),
+        key("seed", &Sampling::seed, "-", "of method random").at_least(0),
+        key("volumes", &Sampling::volumes, "",
+            "equal shares of the cell, or the points' Voronoi cells in the shape (triangulations)")};
   }
 };
 

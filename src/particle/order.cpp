@@ -52,6 +52,23 @@ Location locate(Particles<dim>& points, const StructuredGrid<dim>& grid, const W
   return found;
 }
 
+Location locate(Particles<2>& points, const Triangulation& triangulation) {
+  Location found;
+  points.cell.resize(points.position.size(), -1);
+  int before = -1;
+  for (std::size_t p = 0; p < points.position.size(); ++p) {
+    const int hint =
+        points.cell[p] >= 0 && points.cell[p] < triangulation.n_triangles() ? points.cell[p] : before;
+    const int t = triangulation.locate(points.position[p], hint);
+    points.cell[p] = t;
+    found.outside += t < 0;
+    if (t < 0) continue;
+    found.disorder += t < before;
+    before = t;
+  }
+  return found;
+}
+
 namespace {
 
 /// field[p] = old field[from[p]]. `reach` is the most by which from[p] lies below p: as much of the

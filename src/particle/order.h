@@ -1,6 +1,7 @@
 // Finding the cells of points, and keeping points in cell order.
 #pragma once
 #include "grid/structured.h"
+#include "grid/triangulation.h"
 #include "parallel/window.h"
 #include "particle/body.h"
 
@@ -16,6 +17,9 @@ struct Location {
 /// Writes the local cell index of every point; -1 outside the grid, -2 in a cell that this rank does not own.
 template <int dim>
 Location locate(Particles<dim>& points, const StructuredGrid<dim>& grid, const Window<dim>& window);
+/// The same on a triangulation, which lies on one rank: triangle numbers, -1 outside. The cells from before
+/// are the hints.
+Location locate(Particles<2>& points, const Triangulation& triangulation);
 
 /// Sorts the points (and their material states) by cell; points of one cell keep their order. Moves one field
 /// at a time through a scratch array as long as the points' way.

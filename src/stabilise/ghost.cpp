@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+#include "stabilise/triangle_ghost.h"
+
 namespace wisp {
 
 namespace {
@@ -9,7 +12,7 @@ namespace {
 /// Bodies (bits) for which a cell is a boundary cell.
 template <int dim>
 int boundary_bits(const Space<dim>& space, const ActiveCells& active, const MultiIndex<dim>& cell,
-                  const std::array<bool, 2 * dim>& held_edge) {
+                  const HeldEdges<dim>& held_edge) {
   const auto& window = space.window();
   const int here = active.bits[static_cast<std::size_t>(window.cell_index(cell))];
   if (here == 0) return 0;
@@ -19,19 +22,28 @@ int boundary_bits(const Space<dim>& space, const ActiveCells& active, const Mult
       MultiIndex<dim> next = cell;
       next[d] += side == 0 ? -1 : 1;
       if (!window.cell_in_grid(next))
-        bits |= held_edge[static_cast<std::size_t>(2 * d + side)] ? 0 : here;
+        bits |= held_edge.side[static_cast<std::size_t>(2 * d + side)] ? 0 : here;
       else
         bits |= here & ~active.bits[static_cast<std::size_t>(window.cell_index(next))];
     }
   return bits;
 }
 
+GhostElements on_triangles(GhostElements elements) {
+  return elements == GhostElements::standard ? GhostElements::ring_all : elements;
+}
+
 }  // namespace
 
 template <int dim>
 std::vector<GhostFacet> ghost_facets(const Space<dim>& space, const ActiveCells& active,
-                                     const std::vector<Body<dim>>& bodies,
-                                     const std::array<bool, 2 * dim>& held_edge) {
+                                     const std::vector<Body<dim>>& bodies, const HeldEdges<dim>& held_edge,
+                                     GhostElements elements) {
+  if constexpr (dim == 2)
+    if (!space.structured())
+      return triangle_ghost_facets(space, active, bodies, held_edge, on_triangles(elements));
+  if (elements == GhostElements::ring || elements == GhostElements::ring_all)
+    input_error("stabilisation: elements ring and ring-all need a triangulation");
   std::vector<GhostFacet> facets;
   const auto& window = space.window();
   for_each_in(window.owned_cells(), [&](const MultiIndex<dim>& cell) {
@@ -58,6 +70,13 @@ std::vector<GhostFacet> ghost_facets(const Space<dim>& space, const ActiveCells&
   return facets;
 }
 
+template <int dim>
+ActiveCells ghost_cells(const Space<dim>& space, const ActiveCells& active, const GhostOptions& options) {
+  if constexpr (dim == 2)
+    if (!space.structured()) return triangle_ghost_cells(space, active, on_triangles(options.elements));
+  return active;
+}
+
 double ghost_factor(const GhostOptions& options, GhostMatrix kind, const GhostFacet& facet,
                     double normal_extent) {
   const double h2 = normal_extent * normal_extent;
@@ -69,12 +88,22 @@ double ghost_factor(const GhostOptions& options, GhostMatrix kind, const GhostFa
 
 template <int dim>
 void add_ghost_pattern(const Space<dim>& space, const std::vector<GhostFacet>& facets, BlockMatrix& matrix) {
+  if constexpr (dim == 2)
+    if (!space.structured()) {
+      add_triangle_ghost_pattern(space, facets, matrix);
+      return;
+    }
   for (const auto& facet : facets) matrix.add_element(facet_jumps<dim>(space, facet).function);
 }
 
 template <int dim>
 void add_ghost(const Space<dim>& space, const std::vector<GhostFacet>& facets, const GhostOptions& options,
                GhostMatrix kind, BlockMatrix& matrix) {
+  if constexpr (dim == 2)
+    if (!space.structured()) {
+      add_triangle_ghost(space, facets, options, kind, matrix);
+      return;
+    }
   constexpr int n = FacetJumps<dim>::n_functions;
   for (const auto& facet : facets) {
     const auto jumps = facet_jumps<dim>(space, facet);
@@ -90,9 +119,13 @@ void add_ghost(const Space<dim>& space, const std::vector<GhostFacet>& facets, c
 }
 
 template std::vector<GhostFacet> ghost_facets<2>(const Space<2>&, const ActiveCells&,
-                                                 const std::vector<Body<2>>&, const std::array<bool, 4>&);
+                                                 const std::vector<Body<2>>&, const HeldEdges<2>&,
+                                                 GhostElements);
 template std::vector<GhostFacet> ghost_facets<3>(const Space<3>&, const ActiveCells&,
-                                                 const std::vector<Body<3>>&, const std::array<bool, 6>&);
+                                                 const std::vector<Body<3>>&, const HeldEdges<3>&,
+                                                 GhostElements);
+template ActiveCells ghost_cells<2>(const Space<2>&, const ActiveCells&, const GhostOptions&);
+template ActiveCells ghost_cells<3>(const Space<3>&, const ActiveCells&, const GhostOptions&);
 template void add_ghost_pattern<2>(const Space<2>&, const std::vector<GhostFacet>&, BlockMatrix&);
 template void add_ghost_pattern<3>(const Space<3>&, const std::vector<GhostFacet>&, BlockMatrix&);
 template void add_ghost<2>(const Space<2>&, const std::vector<GhostFacet>&, const GhostOptions&, GhostMatrix,

@@ -22,8 +22,12 @@ struct GhostFacet : Facet {
 /// a boundary cell. Bodies are united.
 template <int dim>
 std::vector<GhostFacet> ghost_facets(const Space<dim>& space, const ActiveCells& active,
-                                     const std::vector<Body<dim>>& bodies,
-                                     const std::array<bool, 2 * dim>& held_edge);
+                                     const std::vector<Body<dim>>& bodies, const HeldEdges<dim>& held_edge,
+                                     GhostElements elements = GhostElements::standard);
+
+/// The cells whose functions take part in a step with Ghost: the active ones, on triangulations also a ring.
+template <int dim>
+ActiveCells ghost_cells(const Space<dim>& space, const ActiveCells& active, const GhostOptions& options);
 
 enum class GhostMatrix { mass, stiffness };
 

@@ -14,6 +14,15 @@ template <>
 inline constexpr auto choices<GhostScale> = choice_list<GhostScale>({{"printed", GhostScale::printed},
                                                                      {"figures", GhostScale::figures}});
 
+/// Which cells around the edge of the bodies are penalised; see stabilise/triangle_ghost.h.
+enum class GhostElements { standard, boundary, ring, ring_all };
+template <>
+inline constexpr auto choices<GhostElements> =
+    choice_list<GhostElements>({{"standard", GhostElements::standard},
+                                {"boundary", GhostElements::boundary},
+                                {"ring", GhostElements::ring},
+                                {"ring-all", GhostElements::ring_all}});
+
 /// Ghost penalty on facets near the edge of the bodies: J_G = (h_n^3/3) integral of [[d_n u]].[[d_n w]].
 /// dimensionless: M_G = mass rho J_G, K_G = stiffness (lambda + 2 mu) J_G / h_n^2.
 /// paper: M_G = mass J_G (kg/m3), K_G = stiffness J_G (Pa), J_G times 1 (printed) or h^2/4 (figures).
@@ -22,6 +31,7 @@ struct GhostOptions {
   double stiffness = 1e-2;
   GhostUnits units = GhostUnits::dimensionless;
   GhostScale scale = GhostScale::printed;
+  GhostElements elements = GhostElements::standard;
 
   static constexpr std::string_view name = "ghost";
   static constexpr std::string_view summary =
@@ -37,7 +47,11 @@ struct GhostOptions {
             .at_least(0),
         key("units", &O::units, "", "dimensionless keys, or the paper's units"),
         key("scale", &O::scale, "",
-            "paper units only: J_G as printed, or times h^2/4 as in the paper's figures")};
+            "paper units only: J_G as printed, or times h^2/4 as in the paper's figures"),
+        key("elements", &O::elements, "",
+            "penalised are facets of boundary cells, or (triangulations) of a ring around the bodies, or of "
+            "the ring "
+            "and all inside; standard: boundary on structured grids, ring-all on triangulations")};
   }
 };
 

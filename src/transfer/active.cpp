@@ -7,6 +7,12 @@ namespace wisp {
 template <int dim>
 ActiveCells active_cells(const Space<dim>& space, const std::vector<Body<dim>>& bodies) {
   if (bodies.size() > 31) input_error("a run can have at most 31 bodies, found {}", bodies.size());
+  if (!space.structured()) {
+    ActiveCells active{std::vector<int>(static_cast<std::size_t>(space.n_cells()), 0)};
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (const int t : bodies[b].points.cell) active.bits[static_cast<std::size_t>(t)] |= 1 << b;
+    return active;
+  }
   const auto& window = space.window();
   const auto& grid = space.grid();
   ActiveCells active{std::vector<int>(static_cast<std::size_t>(window.n_cells()), 0)};
@@ -33,6 +39,16 @@ ActiveCells active_cells(const Space<dim>& space, const std::vector<Body<dim>>& 
 
 template <int dim>
 std::vector<char> active_functions(const Space<dim>& space, const ActiveCells& active) {
+  if constexpr (dim == 2)
+    if (!space.structured()) {
+      std::vector<char> flags(static_cast<std::size_t>(space.n_functions()), 0);
+      visit_on_triangles(space, [&](const auto& basis) {
+        for (int t = 0; t < space.n_cells(); ++t)
+          if (active.bits[static_cast<std::size_t>(t)] != 0)
+            for (const int i : basis.functions(t)) flags[static_cast<std::size_t>(i)] = 1;
+      });
+      return flags;
+    }
   const auto& window = space.window();
   // A ghost function may belong to an active cell outside the window, so owners are asked.
   std::vector<int> flags(static_cast<std::size_t>(window.n_nodes()), 0);

@@ -13,7 +13,8 @@ struct ActiveCells {
   std::vector<int> bits;
 };
 
-/// Marks the cells; owners and ghosts agree. Collective. Errors (InputError): more than 31 bodies.
+/// Marks the cells; owners and ghosts agree. Of a triangulation the triangles in which points lie, as found
+/// by `locate`. Collective. Errors (InputError): more than 31 bodies.
 template <int dim>
 ActiveCells active_cells(const Space<dim>& space, const std::vector<Body<dim>>& bodies);
 

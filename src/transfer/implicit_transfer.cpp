@@ -141,14 +141,19 @@ void add_stiffness(const StoredStencils<dim>& stencils, const Body<dim>& body, s
                    double dt, BlockMatrix& stiffness) {
   std::visit(
       [&](const auto& group) {
-        const auto add = [&]<int width>(std::integral_constant<int, width>) {
-          constexpr int n = dim == 2 ? width * width : width * width * width;
+        const auto add = [&]<int n>(std::integral_constant<int, n>) {
           if (stencils.n == n)
             add_group_stiffness<dim, n>(stencils, group, body.points.volume, u.data(), dt, stiffness);
         };
-        add(std::integral_constant<int, 2>());
-        add(std::integral_constant<int, 3>());
-        add(std::integral_constant<int, 5>());
+        // Every number of functions that a stencil of this dimension can have.
+        if constexpr (dim == 2) {
+          add(std::integral_constant<int, 3>()), add(std::integral_constant<int, 4>());
+          add(std::integral_constant<int, 6>()), add(std::integral_constant<int, 9>());
+          add(std::integral_constant<int, 21>()), add(std::integral_constant<int, 25>());
+        } else {
+          add(std::integral_constant<int, 8>()), add(std::integral_constant<int, 27>());
+          add(std::integral_constant<int, 125>());
+        }
       },
       body.material);
 }

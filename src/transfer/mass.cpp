@@ -20,7 +20,7 @@ template <int dim>
 void add_point_pattern(const Space<dim>& space, const std::vector<Body<dim>>& bodies, BlockMatrix& matrix) {
   std::visit(
       [&](const auto& basis) {
-        std::vector<char> seen(static_cast<std::size_t>(space.n_functions()), 0);
+        std::vector<char> seen(static_cast<std::size_t>(space.n_keys()), 0);
         std::vector<int> functions;
         for (const auto& body : bodies)
           for_each_stencil<dim>(basis, body.points, [&](std::size_t, const auto& stencil) {

@@ -1,0 +1,161 @@
+#include "particle/triangle_sampling.h"
+
+#include <algorithm>
+#include <numbers>
+#include <random>
+
+#include "core/error.h"
+#include "geometry/delaunay.h"
+#include "geometry/region.h"
+#include "grid/gmsh.h"
+#include "particle/initial_state.h"
+
+namespace wisp {
+
+namespace {
+
+struct Layout {
+  std::vector<Vec<2>> position, velocity;
+  std::vector<double> volume;
+};
+
+/// Uniform in [0, 1), the same on every machine, which the standard's distributions are not.
+class Uniform {
+ public:
+  explicit Uniform(int seed) : random_(static_cast<unsigned>(seed)) {}
+  double operator()() { return static_cast<double>(random_()) / 4294967296.0; }
+
+ private:
+  std::mt19937 random_;
+};
+
+/// Puts points into one triangle, those that `keep` accepts.
+template <class Keep>
+void fill_triangle(const Triangulation& mesh, int t, const Sampling& sampling, Uniform& random, Keep&& keep,
+                   Layout& out) {
+  const int n = sampling.points_per_cell;
+  std::vector<Vec<2>> points;
+  if (sampling.method == SamplingMethod::random) {
+    for (int k = 0; k < n * n; ++k) {
+      double a = random(), b = random();
+      if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;  // the other half of the parallelogram
+      points.push_back(mesh.point(t, {1.0 - a - b, a, b}));
+    }
+  } else {
+    points = even_points(mesh, t, n);
+  }
+  for (const auto& x : points)
+    if (keep(x)) out.position.push_back(x), out.volume.push_back(mesh.area(t) / (n * n));
+}
+
+void fill_divisions(const BodyOptions& options, const Region<2>& shape, Layout& out) {
+  const auto& divisions = options.sampling.divisions;
+  if (divisions.size() != 2)
+    input_error("body '{}': sampling by divisions needs `divisions` with 2 values", options.label);
+  const auto box = bounds(shape);
+  const Vec<2> step = (box.upper - box.lower).cwiseQuotient(Vec<2>(divisions[0], divisions[1]));
+  for (int j = 0; j < divisions[1]; ++j)
+    for (int i = 0; i < divisions[0]; ++i) {
+      const Vec<2> x = box.lower + step.cwiseProduct(Vec<2>(i + 0.5, j + 0.5));
+      if (contains(shape, x)) out.position.push_back(x), out.volume.push_back(step.prod());
+    }
+}
+
+/// A shape as a polygon; a disc by one of 720 corners and the same area.
+Outline polygon_of(const Region<2>& shape) {
+  if (const auto* outline = std::get_if<Outline>(&shape)) return *outline;
+  if (const auto* box = std::get_if<Block<2>>(&shape))
+    return Outline(
+        {{box->lower, {box->upper.x(), box->lower.y()}, box->upper, {box->lower.x(), box->upper.y()}}});
+  const auto& disc = std::get<Sphere<2>>(shape);
+  constexpr int corners = 720;
+  constexpr double angle = 2.0 * std::numbers::pi / corners;
+  const double radius = disc.radius * std::sqrt(angle / std::sin(angle));
+  Ring ring;
+  for (int i = 0; i < corners; ++i)
+    ring.push_back(disc.centre + radius * Vec<2>(std::cos(i * angle), std::sin(i * angle)));
+  return Outline({ring});
+}
+
+Layout fill_mesh(const BodyOptions& options, const MeshShape& shape, const std::filesystem::path& folder) {
+  const Triangulation mesh = read_gmsh(folder / shape.file, shape.scale);
+  if (options.sampling.method == SamplingMethod::divisions)
+    input_error("body '{}': a mesh is sampled triangle by triangle: method cells or random", options.label);
+  if (options.sampling.volumes == PointVolumes::voronoi)
+    input_error("body '{}': the points of a mesh have equal shares of its triangles; volumes must be share",
+                options.label);
+  Layout out;
+  Uniform random(options.sampling.seed);
+  const auto all = [](const Vec<2>&) { return true; };
+  if (shape.surface.empty())
+    for (int t = 0; t < mesh.n_triangles(); ++t) fill_triangle(mesh, t, options.sampling, random, all, out);
+  else
+    for (const int t : mesh.part(shape.surface).triangles)
+      fill_triangle(mesh, t, options.sampling, random, all, out);
+  return out;
+}
+
+Layout lay_out(const BodyOptions& options, const Triangulation& grid, const std::filesystem::path& folder) {
+  Layout out;
+  if (const auto* file = std::get_if<PointFile>(&options.shape)) {
+    PointTable<2> table = read_points<2>(*file, folder);
+    out.position = std::move(table.positions), out.volume = std::move(table.volumes);
+    out.velocity = std::move(table.velocities);
+    return out;
+  }
+  if (options.sampling.method == SamplingMethod::gauss)
+    input_error(
+        "body '{}': sampling at Gauss positions needs a structured grid; methods here are cells, random "
+        "and divisions",
+        options.label);
+  if (const auto* mesh = std::get_if<MeshShape>(&options.shape)) return fill_mesh(options, *mesh, folder);
+  const Region<2> shape = region<2>(options.shape, folder);
+  if (options.sampling.method == SamplingMethod::divisions) {
+    fill_divisions(options, shape, out);
+  } else {
+    Uniform random(options.sampling.seed);
+    const auto inside = [&](const Vec<2>& x) { return contains(shape, x); };
+    for (int t = 0; t < grid.n_triangles(); ++t)
+      fill_triangle(grid, t, options.sampling, random, inside, out);
+  }
+  if (options.sampling.volumes == PointVolumes::voronoi && !out.position.empty())
+    out.volume = voronoi_areas(out.position, polygon_of(shape));
+  return out;
+}
+
+}  // namespace
+
+std::vector<Vec<2>> even_points(const Triangulation& triangulation, int t, int n) {
+  std::vector<Vec<2>> points;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n - j; ++i) {
+      const auto add = [&](double a, double b) {
+        points.push_back(triangulation.point(t, {1.0 - (a + b) / n, a / n, b / n}));
+      };
+      add(i + 1.0 / 3.0, j + 1.0 / 3.0);
+      if (i + j < n - 1) add(i + 2.0 / 3.0, j + 2.0 / 3.0);
+    }
+  return points;
+}
+
+Body<2> sample(const BodyOptions& options, const Triangulation& grid, std::int64_t first_id,
+               const std::filesystem::path& folder) {
+  const Layout layout = lay_out(options, grid, folder);
+  if (layout.position.empty())
+    input_error(
+        "body '{}': no point lies in its shape; check the shape, or use more points per cell or divisions",
+        options.label);
+  InitialState<2> state(options);
+  int hint = -1;
+  for (std::size_t p = 0; p < layout.position.size(); ++p) {
+    const Vec<2>& x = layout.position[p];
+    hint = grid.locate(x, hint);
+    if (hint < 0)
+      input_error("body '{}': a point at ({}, {}) lies outside the grid", options.label, x.x(), x.y());
+    state.add(first_id + static_cast<std::int64_t>(p), x, layout.volume[p],
+              layout.velocity.empty() ? Vec<2>::Zero().eval() : layout.velocity[p]);
+  }
+  return state.take();
+}
+
+}  // namespace wisp

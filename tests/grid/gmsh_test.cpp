@@ -1,0 +1,148 @@
+// Gmsh files: both formats, names, and everything that can be wrong with them.
+#include "grid/gmsh.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "core/error.h"
+#include "grid/triangulation_samples.h"
+
+namespace wisp {
+namespace {
+
+using namespace grid_test;
+
+/// A file that vanishes at the end of the test.
+class File {
+ public:
+  explicit File(const std::string& text) {
+    static int count = 0;
+    path_ = std::filesystem::temp_directory_path() / fmt::format("wisp-gmsh-{}-{}.msh", ::getpid(), count++);
+    std::ofstream(path_, std::ios::binary) << text;
+  }
+  ~File() { std::filesystem::remove(path_); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string message(const std::string& text) {
+  const File file(text);
+  try {
+    read_gmsh(file.path());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "(no error)";
+}
+
+const std::string names =
+    "$PhysicalNames\n3\n1 7 \"base line\"\n2 8 \"soil\"\n0 9 \"pin\"\n$EndPhysicalNames\n";
+
+// A unit square of two triangles, nodes numbered as Gmsh may: not from 1, not in order.
+const std::string version2 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names +
+    "$Nodes\n4\n10 0 0 0\n3 1 0 0\n12 1 1 0\n5 0 1 0\n$EndNodes\n"
+    "$Elements\n5\n1 15 2 9 1 10\n2 1 2 7 1 10 3\n3 2 2 8 1 10 3 12\n4 2 2 8 1 10 12 5\n"
+    "5 2 2 11 1 10 12 5\n$EndElements\n";
+const std::string version41 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + names +
+    "$Entities\n1 1 1 0\n1 0 0 0 1 9\n1 0 0 0 1 0 0 1 7 2 1 -2\n1 0 0 0 1 1 0 1 8 1 1\n$EndEntities\n"
+    "$Nodes\n2 4 3 12\n1 1 0 2\n10\n3\n0 0 0\n1 0 0\n2 1 0 2\n12\n5\n1 1 0\n0 1 0\n$EndNodes\n"
+    "$Elements\n3 4 1 4\n0 1 15 1\n1 10\n1 1 1 1\n2 10 3\n2 1 2 2\n3 10 3 12\n4 10 12 5\n$EndElements\n"
+    "$Periodic\nwhatever 1 2\n$EndPeriodic\n";
+const std::string version40 =
+    "$MeshFormat\n4 0 8\n$EndMeshFormat\n" + names +
+    "$Entities\n1 1 1 0\n1 0 0 0 0 0 0 1 9\n1 0 0 0 1 0 0 1 7 2 1 -2\n1 0 0 0 1 1 0 1 8 1 1\n$EndEntities\n"
+    "$Nodes\n2 4\n1 1 0 2\n10 0 0 0\n3 1 0 0\n1 2 0 2\n12 1 1 0\n5 0 1 0\n$EndNodes\n"
+    "$Elements\n3 4\n1 0 15 1\n1 10\n1 1 1 1\n2 10 3\n1 2 2 2\n3 10 3 12\n4 10 12 5\n$EndElements\n";
+
+TEST(Gmsh, ReadsFormats2And4) {
+  for (const auto& text : {version2, version40, version41}) {
+    const File file(text);
+    const auto mesh = read_gmsh(file.path(), 2.0);
+    EXPECT_EQ(mesh.n_triangles(), 2);
+    EXPECT_EQ(mesh.n_vertices(), 4);
+    EXPECT_DOUBLE_EQ(mesh.total_area(), 4.0);
+    ASSERT_EQ(mesh.part("base line").edges.size(), 1U);
+    for (const int v : mesh.part("base line").vertices) EXPECT_EQ(mesh.vertex(v).y(), 0.0);
+    EXPECT_EQ(mesh.part("soil").triangles.size(), 2U);
+    ASSERT_EQ(mesh.part("pin").vertices.size(), 1U);
+    EXPECT_EQ(mesh.vertex(mesh.part("pin").vertices[0]), Vec<2>(0, 0));
+  }
+  const File file(version2);  // the triangle that is listed twice, with another group
+  EXPECT_EQ(read_gmsh(file.path()).part("physical 11").triangles, std::vector<int>{1});
+}
+
+/// Any triangulation, written in format 2.2 and 4.1.
+std::string written(const Triangulation& mesh, bool four) {
+  std::string text = four ? "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n"
+                          : "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
+  const int n = mesh.n_vertices(), m = mesh.n_triangles();
+  text += four ? fmt::format("1 {} 1 {}\n2 1 0 {}\n", n, n, n) : fmt::format("{}\n", n);
+  for (int v = 0; four && v < n; ++v) text += fmt::format("{}\n", v + 1);
+  for (int v = 0; v < n; ++v)
+    text += (four ? std::string() : fmt::format("{} ", v + 1)) +
+            fmt::format("{} {} 0\n", mesh.vertex(v).x(), mesh.vertex(v).y());
+  text += "$EndNodes\n$Elements\n";
+  text += four ? fmt::format("1 {} 1 {}\n2 1 2 {}\n", m, m, m) : fmt::format("{}\n", m);
+  for (int t = 0; t < m; ++t) {
+    const auto& v = mesh.triangle(t);
+    text += fmt::format("{} {}{} {} {}\n", t + 1, four ? "" : "2 0 ", v[0] + 1, v[1] + 1, v[2] + 1);
+  }
+  return text + "$EndElements\n";
+}
+
+RC_GTEST_PROP(Gmsh, WhatIsWrittenIsRead, (bool four)) {
+  const auto mesh = random_square(*rc::gen::arbitrary<unsigned>(), 20);
+  const File file(written(mesh, four));
+  const auto copy = read_gmsh(file.path());
+  RC_ASSERT(copy.n_triangles() == mesh.n_triangles());
+  for (int v = 0; v < mesh.n_vertices(); ++v) RC_ASSERT(copy.vertex(v) == mesh.vertex(v));
+  for (int t = 0; t < mesh.n_triangles(); ++t) RC_ASSERT(copy.triangle(t) == mesh.triangle(t));
+}
+
+RC_GTEST_PROP(Gmsh, FilesCutShortAreInputErrors, (bool four)) {
+  const std::string text = written(random_square(3, 6), four);
+  const auto length = *rc::gen::inRange<std::size_t>(0, text.size() - 2);
+  const std::string said = message(text.substr(0, length));
+  RC_ASSERT(said != "(no error)");
+  RC_ASSERT(said.find('\n') == std::string::npos);
+}
+
+TEST(Gmsh, WrongFilesAreInputErrors) {
+  const auto with = [](std::string text, const std::string& old, const std::string& replacement) {
+    text.replace(text.find(old), old.size(), replacement);
+    return message(text);
+  };
+  const auto says = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos && text.find('\n') == std::string::npos ? std::string("yes")
+                                                                                        : text;
+  };
+  EXPECT_EQ(says(message("solid\n"), "does not start with $MeshFormat"), "yes");
+  EXPECT_EQ(says(with(version2, "2.2 0 8", "3.0 0 8"), ":2: Gmsh format 3 is not known"), "yes");
+  EXPECT_EQ(says(with(version2, "2.2 0 8", "2.2 1 8"), ":2: the file is binary"), "yes");
+  EXPECT_EQ(says(with(version2, "3 1 0 0\n", "3 1 x 0\n"), ":13: expected y, found 'x'"), "yes");
+  EXPECT_EQ(says(with(version2, "3 1 0 0\n", "10 1 0 0\n"), "node 10 is listed twice"), "yes");
+  EXPECT_EQ(says(with(version2, "3 1 0 0\n", "3 nan 0 0\n"), "not finite"), "yes");
+  EXPECT_EQ(says(with(version2, "3 1 0 0\n", "3 1 0 1\n"), "expected a plane"), "yes");
+  EXPECT_EQ(says(with(version2, "10 3 12", "10 4 12"), "names node 4, which is not listed"), "yes");
+  EXPECT_EQ(says(with(version2, "3 2 2 8 1 10 3 12", "3 9 2 8 1 10 3 12"), "Mesh.ElementOrder = 1"), "yes");
+  EXPECT_EQ(says(with(version2, "3 2 2 8 1 10 3 12", "3 2 2 8 1 10 12 3"), "1 of 2 triangles are inverted"),
+            "yes");
+  EXPECT_EQ(says(with(version2, "4\n10 0 0 0", "5\n99 5 5 0\n10 0 0 0"), "the first is node 99 at (5, 5)"),
+            "yes");
+  EXPECT_EQ(says(with(version2, "2 1 2 7 1 10 3", "2 1 2 7 1 3 5"), "no edge joins"), "yes");
+  EXPECT_EQ(says(with(version2, "$Nodes", "$Knots"), "the file ends before $EndKnots: it was cut short"),
+            "yes");
+  EXPECT_THROW(read_gmsh("/no/such/file.msh"), InputError);
+}
+
+}  // namespace
+}  // namespace wisp
