@@ -26,6 +26,7 @@ template <int dim>
 constexpr double target_bytes = dim == 2 ? 300.0 : 450.0;
 constexpr double target_newton = 15e-3;  // s
 constexpr double target_consistent = 15.0;
+constexpr double target_splines = 4.0;
 
 const char* verdict(bool met) { return met ? "met" : "MISSED"; }
 
@@ -248,6 +249,29 @@ void bench_consistent(int points, bool gimp) {
       verdict(ratio < target_consistent), consistent.parts);
 }
 
+/// Powell-Sabin splines against linear functions, on the same triangles and points, and on the cells of a
+/// structured grid with as many points.
+void bench_splines(int points) {
+  const int blocks = std::max(4, static_cast<int>(std::lround(std::sqrt(points) / 4)));
+  const auto on_triangles = [&](const AnyBasisOptions& basis) {
+    ModelOptions o = block<2>(4 * blocks * blocks, false);
+    TriangleBlocksOptions grid;
+    grid.lower = o.grid.lower, grid.upper = o.grid.upper, grid.cells = o.grid.cells;
+    o.triangulation = grid;
+    o.basis = basis;
+    return measure<2>(o, Mass::lumped, explicit_steps, 4);
+  };
+  const Measured linear = on_triangles(LinearOptions{}), spline = on_triangles(PowellSabinOptions{});
+  const Measured cells = measure<2>(block<2>(linear.points, false), Mass::lumped, explicit_steps, 4);
+  const double ratio = linear.speed() / spline.speed();
+  print(
+      "  {:>9} points  {:>6.2f} M point-steps/s, {:.2f} times the linear step on triangles, target <= "
+      "{:.0f}: {}   "
+      "({:.2f} times that on cells, {:.2f} for linear on triangles; {} ns a point in steps 1 to 5-7)\n",
+      spline.points, 1e-6 * spline.speed(), ratio, target_splines, verdict(ratio <= target_splines),
+      cells.speed() / spline.speed(), cells.speed() / linear.speed(), spline.parts);
+}
+
 }  // namespace
 
 void bench(int points) {
@@ -270,6 +294,8 @@ void bench(int points) {
       "  (memory: difference of the peaks of resident memory at both sizes over the difference of points; "
       "the peak\n"
       "   is reset through /proc/self/clear_refs before each)\n");
+  print("\nPowell-Sabin splines, explicit, lumped\n");
+  bench_splines(points);
   print("\nNewton\n");
   bench_newton();
   print("\nConsistent mass with Ghost\n");

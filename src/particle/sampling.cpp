@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "geometry/region.h"
 #include "parallel/session.h"
+#include "particle/initial_state.h"
 
 namespace wisp {
 
@@ -137,40 +138,6 @@ Seed<dim> seed_of(const PointRow<dim>& row) {
           row.velocity ? *row.velocity : Vec<dim>::Zero(), row.volume};
 }
 
-template <int dim>
-Vec<dim> vector_or_zero(const std::vector<double>& list, const char* key, const std::string& body) {
-  if (list.empty()) return Vec<dim>::Zero();
-  if (list.size() != dim) input_error("body '{}': {} needs {} values, found {}", body, key, dim, list.size());
-  return Eigen::Map<const Vec<dim>>(list.data());
-}
-
-template <int dim>
-Mat<dim> velocity_gradient(const BodyOptions& options) {
-  Mat<dim> gradient = Mat<dim>::Zero();
-  const auto& rows = options.velocity_gradient;
-  if (rows.empty()) return gradient;
-  for (const auto& row : rows)
-    if (rows.size() != dim || row.size() != dim)
-      input_error("body '{}': velocity_gradient needs {} rows of {} values", options.label, dim, dim);
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j < dim; ++j)
-      gradient(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  return gradient;
-}
-
-template <int dim>
-Sym<dim> initial_stress(const BodyOptions& options, double density, const Vec<dim>& x) {
-  if (!options.initial_stress.empty()) return Eigen::Map<const Sym<dim>>(options.initial_stress.data());
-  Sym<dim> sigma = Sym<dim>::Zero();
-  if (options.k0) {
-    const double depth = std::max(0.0, options.k0->surface - x[dim - 1]);
-    const double vertical = -density * options.k0->gravity * depth;
-    for (int a = 0; a < 3; ++a) sigma[a] = options.k0->k0 * vertical;
-    sigma[dim - 1] = vertical;
-  }
-  return sigma;
-}
-
 }  // namespace
 
 template <int dim>
@@ -237,39 +204,14 @@ void Sampler<dim>::for_each_in_cells(const IndexBox<dim>& cells, F&& f) const {
 
 template <int dim>
 Body<dim> Sampler<dim>::points(const IndexBox<dim>& cells, bool with_domains, std::int64_t first_id) const {
-  const BodyOptions& o = options_;
-  const Vec<dim> v0 = vector_or_zero<dim>(o.velocity, "velocity", o.label);
-  const Vec<dim> centre = vector_or_zero<dim>(o.velocity_centre, "velocity_centre", o.label);
-  const Mat<dim> gradient = velocity_gradient<dim>(o);
-  if (o.k0 && !o.initial_stress.empty()) input_error("body '{}': give either initial_stress or k0", o.label);
-  if (!o.initial_stress.empty() && o.initial_stress.size() != sym_size<dim>)
-    input_error("body '{}': initial_stress needs {} values, found {}", o.label, sym_size<dim>,
-                o.initial_stress.size());
-
-  Body<dim> body{o.label, {}, make_material<dim>(o.material)};
-  Particles<dim>& points = body.points;
-  const double rho = body.density();
+  InitialState<dim> state(options_);
+  std::vector<Vec<dim>> half_lengths;
   for_each_in_cells(cells, [&](std::int64_t k, const Seed<dim>& seed) {
-    const Vec<dim>& x = seed.position;
-    points.id.push_back(first_id + k);
-    points.position.push_back(x);
-    points.velocity.push_back(v0 + gradient * (x - centre) + seed.velocity);
-    points.mass.push_back(rho * seed.volume);
-    points.volume.push_back(seed.volume);
-    if (with_domains) points.half_length.push_back(seed.half_length);
+    state.add(first_id + k, seed.position, seed.volume, seed.velocity);
+    if (with_domains) half_lengths.push_back(seed.half_length);
   });
-  const std::size_t n = points.id.size();
-  points.initial_half_length = points.half_length;
-  points.cell.assign(n, 0);
-  points.displacement.assign(n, Vec<dim>::Zero());
-  points.deformation_gradient.assign(n, Mat<dim>::Identity());
-  std::visit(
-      [&](auto& m) {
-        m.old.reserve(n);
-        for (const auto& x : points.position)
-          m.old.push_back(m.law.template initial<dim>(initial_stress<dim>(o, rho, x)));
-      },
-      body.material);
+  Body<dim> body = state.take();
+  body.points.half_length = half_lengths, body.points.initial_half_length = std::move(half_lengths);
   return body;
 }
 

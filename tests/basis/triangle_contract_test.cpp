@@ -4,6 +4,7 @@
 #include <map>
 
 #include "basis/lagrange_quadratic.h"
+#include "basis/linear_triangle.h"
 #include "basis/powell_sabin_cubic.h"
 #include "basis/powell_sabin_quadratic.h"
 #include "grid/triangulations.h"
@@ -78,7 +79,7 @@ struct TriangleContract : testing::Test {
   }
 };
 
-using Bases = testing::Types<LagrangeQuadratic, PowellSabinQuadratic, PowellSabinCubic>;
+using Bases = testing::Types<LinearTriangle, LagrangeQuadratic, PowellSabinQuadratic, PowellSabinCubic>;
 TYPED_TEST_SUITE(TriangleContract, Bases);
 
 TYPED_TEST(TriangleContract, SumsToOneWithoutNegativeParts) {
