@@ -7,6 +7,7 @@
 #include "transfer/active.h"
 #include "transfer/explicit_transfer.h"
 #include "transfer/mass.h"
+#include "transfer/reconstruction.h"
 
 namespace wisp {
 
@@ -72,6 +73,8 @@ void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   for (const auto& body : model_.bodies)
     points_to_grid<dim>(*model_.space, body, what, gravity, options_.velocity_update == VelocityUpdate::apic,
                         sums_, followed);
+  if (what != Gather::inertia && options_.integration == Integration::reconstructed)
+    add_reconstruction<dim>(*model_.space, model_.bodies, active_cells(*model_.space, model_.bodies), sums_);
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
@@ -79,18 +82,29 @@ template <int dim>
 void Explicit<dim>::assemble_mass() {
   const auto& space = *model_.space;
   const ActiveCells cells = active_cells(space, model_.bodies);
-  std::vector<GhostFacet> facets;
   const auto& ghost = model_.options.stabilisation;
   // A series of the mass converges without a penalty, not with one.
   const bool with_ghost = ghost && options_.mass == Mass::consistent;
-  if (with_ghost)
-    facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), ghost->elements);
-  mass_.begin_pattern(space.n_functions());
-  add_point_pattern(space, model_.bodies, mass_);
-  add_ghost_pattern(space, facets, mass_);
-  mass_.end_pattern();
+  // Points without domains meet the functions of their cells: the same cells, the same pattern and penalty.
+  const bool kept = Session::size() == 1 && !space.domains() && cells.bits == mass_cells_.bits &&
+                    mass_.n_local() == space.n_functions();
+  if (!kept) {
+    std::vector<GhostFacet> facets;
+    if (with_ghost)
+      facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), ghost->elements);
+    mass_.begin_pattern(space.n_functions());
+    add_point_pattern(space, model_.bodies, mass_);
+    add_ghost_pattern(space, facets, mass_);
+    mass_.end_pattern();
+    if (with_ghost) {
+      ghost_mass_.share_pattern(mass_);
+      add_ghost(space, facets, *ghost, GhostMatrix::mass, ghost_mass_);
+    }
+    mass_cells_ = cells;
+  }
+  mass_.zero();
   add_consistent_mass(space, model_.bodies, mass_);
-  if (with_ghost) add_ghost(space, facets, *ghost, GhostMatrix::mass, mass_);
+  if (with_ghost) mass_.add_matrix(1.0, ghost_mass_);
   std::vector<char> active = active_functions(space, with_ghost ? ghost_cells(space, cells, *ghost) : cells);
   for (std::size_t i = 0; i < active.size(); ++i)
     if (!with_ghost && sums_[i * sums_stride<dim>] <= 0.0) active[i] = 0;

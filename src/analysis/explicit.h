@@ -61,7 +61,8 @@ class Explicit {
   // Arrays over functions; see explicit_transfer.h for the records.
   std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_,
       inertia_;
-  BlockMatrix mass_{1};
+  BlockMatrix mass_{1}, ghost_mass_{1};
+  ActiveCells mass_cells_;  // for which their pattern was made
   MassEquation equation_;
 };
 

@@ -22,6 +22,11 @@ inline constexpr auto choices<VelocityUpdate> = choice_list<VelocityUpdate>({{"f
                                                                              {"pic", VelocityUpdate::pic},
                                                                              {"apic", VelocityUpdate::apic}});
 
+enum class Integration { points, reconstructed };
+template <>
+inline constexpr auto choices<Integration> =
+    choice_list<Integration>({{"points", Integration::points}, {"reconstructed", Integration::reconstructed}});
+
 struct ExplicitOptions {
   double duration = 1.0;
   std::optional<int> steps;
@@ -33,6 +38,7 @@ struct ExplicitOptions {
   StressUpdate stress_update = StressUpdate::usl;
   VelocityUpdate velocity_update = VelocityUpdate::flip;
   double pic_fraction = 0.0;
+  Integration integration = Integration::points;
   double damping = 0.0;
 
   static constexpr std::string_view name = "explicit";
@@ -66,6 +72,8 @@ struct ExplicitOptions {
         key("pic_fraction", &O::pic_fraction, "-", "blend: this share of PIC in the FLIP update")
             .at_least(0)
             .at_most(1),
+        key("integration", &O::integration, "",
+            "internal forces by the points, or in filled cells by Gauss points of the stress reconstructed there"),
         key("damping", &O::damping, "-",
             "local non-viscous damping: share of the out-of-balance force against the velocity")
             .at_least(0)

@@ -371,6 +371,12 @@ class Checks {
     if (e.dt && *e.dt > e.duration)
       context_.fail_at(at("dt"),
                        fmt::format("expected at most the duration, {} s, found {} s", e.duration, *e.dt));
+    if (context_.given(at("fmpm_order")) && e.mass != Mass::fmpm)
+      context_.fail_at(at("fmpm_order"), "only for mass = \"fmpm\"");
+    if (e.deactivate_below > 0 && e.mass == Mass::lumped)
+      context_.fail_at(at("deactivate_below"), "a lumped mass needs none; for the other masses only");
+    if (e.integration == Integration::reconstructed && std::holds_alternative<GimpOptions>(case_.basis))
+      context_.fail_at(at("integration"), "reconstruction needs points without domains, not basis 'gimp'");
     if (context_.given(at("pic_fraction")) && e.velocity_update != VelocityUpdate::flip)
       context_.fail_at(at("pic_fraction"), "only for velocity_update = \"flip\"");
     const auto no_waves = [](const BodyOptions& b) { return !(p_wave_modulus(b.material) > 0.0); };

@@ -77,9 +77,10 @@ ModelOptions strip_options(const StripCase& s) {
   box.lower = {0.0, 0.0};
   box.upper = s.column ? std::vector{s.width, s.length} : std::vector{s.length, s.width};
   body.shape = box;
-  JaumannElastic law;
-  law.density = s.density, law.young_modulus = s.young_modulus, law.poisson_ratio = 0.0;
-  body.material = law;
+  if (s.hencky)
+    body.material = Hencky{s.density, s.young_modulus, 0.0};
+  else
+    body.material = JaumannElastic{s.density, s.young_modulus, 0.0};
   body.sampling.method = SamplingMethod::divisions;
   const int along = s.blocks * s.points, across = s.blocks_across * s.points_across;
   body.sampling.divisions = s.column ? std::vector{across, along} : std::vector{along, across};
@@ -105,15 +106,16 @@ std::size_t middle_point(const Particles<2>& points, const Vec<2>& middle) {
   return best;
 }
 
-/// Kinetic energy, and strain energy minus the work of gravity, J. In uniaxial strain the law has the energy
-/// E (s - 1 - ln s) of a stretch s (see Ulfem), which its own estimate from the stress only nears.
+/// Kinetic energy, and strain energy minus the work of gravity, J. In uniaxial strain the thesis's law has the
+/// energy E (s - 1 - ln s) of a stretch s (see Ulfem), which its own estimate from the stress only nears.
 std::pair<double, double> energies(const StripCase& s, const Particles<2>& points) {
   double kinetic = 0.0, potential = 0.0;
   const int axis = s.column ? 1 : 0;
   for (std::size_t q = 0; q < points.mass.size(); ++q) {
     const double stretch = points.deformation_gradient[q](axis, axis);
     kinetic += 0.5 * points.mass[q] * points.velocity[q].squaredNorm();
-    potential += points.volume[q] * s.young_modulus * (stretch - 1.0 - std::log(stretch)) +
+    const double log = std::log(stretch);
+    potential += points.volume[q] * s.young_modulus * (s.hencky ? 0.5 * log * log : stretch - 1.0 - log) +
                  s.gravity * points.mass[q] * points.displacement[q][1];
   }
   return {kinetic, potential};
@@ -126,6 +128,7 @@ StripRun run_strip(const StripCase& s) {
   ExplicitOptions options;
   options.duration = s.duration, options.dt = s.dt;
   options.stress_update = StressUpdate::projected;
+  if (s.reconstructed) options.integration = Integration::reconstructed;
   options.mass = s.mass, options.fmpm_order = s.fmpm_order, options.deactivate_below = s.deactivate_below;
   Explicit<2> analysis(model, options);
   StripRun run;
@@ -203,7 +206,7 @@ double StripRun::field_error(const std::function<double(double x)>& reference) c
 Reference ulfem_reference(const StripCase& s, double middle, const std::vector<double>& times) {
   UlfemCase c;
   c.length = s.length, c.density = s.density, c.young_modulus = s.young_modulus;
-  c.acceleration = -s.gravity, c.end_held = !s.column, c.elements = 2000;
+  c.acceleration = -s.gravity, c.end_held = !s.column, c.elements = 2000, c.hencky = s.hencky;
   if (!s.column)
     c.velocity = [&](double x) { return s.speed * std::sin(std::numbers::pi * x / s.length); };
   Ulfem ulfem(c);

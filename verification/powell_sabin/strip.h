@@ -24,6 +24,9 @@ struct StripCase {
   std::optional<int> delaunay_seed;   ///< random triangulation instead of blocks
   bool splines = true;                ///< Powell-Sabin or linear
   bool cubic = false;                 ///< with splines
+  /// Hencky's law: the thesis's, in rate form, takes dl/l of the old length, and the sum of dl/l misses the
+  /// logarithm by dt/2 times the integral of the squared strain rate, a drift of first order in dt.
+  bool hencky = false;
   Mass mass = Mass::consistent;
   int fmpm_order = 4;
   double deactivate_below = 0.0;  ///< kg

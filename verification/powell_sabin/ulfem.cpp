@@ -23,7 +23,8 @@ void Ulfem::find_acceleration() {
   for (std::size_t e = 0; e + 1 < n; ++e) {
     const double stretch = 1.0 + (displacement_[e + 1] - displacement_[e]) / h_;
     // The section keeps its area, so the force is the Cauchy stress.
-    const double force = bar_.young_modulus * (1.0 - 1.0 / stretch);
+    const double force =
+        bar_.young_modulus * (bar_.hencky ? std::log(stretch) / stretch : 1.0 - 1.0 / stretch);
     acceleration_[e] += force, acceleration_[e + 1] -= force;
   }
   for (std::size_t i = 1; i < n; ++i) acceleration_[i] = acceleration_[i] / mass_[i] + bar_.acceleration;
@@ -60,8 +61,9 @@ double Ulfem::energy() const {
     sum += mass_[i] * (0.5 * velocity_[i] * velocity_[i] - bar_.acceleration * displacement_[i]);
   for (std::size_t e = 0; e + 1 < mass_.size(); ++e) {
     const double stretch = 1.0 + (displacement_[e + 1] - displacement_[e]) / h_;
-    // integral of E (1 - 1/s) ds from 1
-    sum += h_ * bar_.young_modulus * (stretch - 1.0 - std::log(stretch));
+    // integral of E (1 - 1/s) ds, or of E ln(s)/s ds, from 1
+    const double log = std::log(stretch);
+    sum += h_ * bar_.young_modulus * (bar_.hencky ? 0.5 * log * log : stretch - 1.0 - log);
   }
   return sum;
 }

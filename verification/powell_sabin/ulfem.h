@@ -15,12 +15,13 @@ struct UlfemCase {
   bool end_held = false;                   ///< at x = length
   std::function<double(double)> velocity;  ///< m/s over the initial position; empty: at rest
   int elements = 1000;
+  bool hencky = false;  ///< Hencky's law instead of the thesis's
 };
 
 /// Linear elements that move with the material, lumped mass, velocity Verlet steps at half the stable length:
 /// second order in both. The law is the thesis's, d(sigma) = (E - sigma) d(eps) with d(eps) = dl/l, which in
 /// uniaxial strain integrates to sigma = E (1 - l0/l); so nothing depends on how a step approximates the
-/// increment.
+/// increment. Hencky's law has sigma = E ln(s)/s of the stretch s.
 class Ulfem {
  public:
   explicit Ulfem(const UlfemCase& bar);
