@@ -353,11 +353,11 @@ class Checks {
     if (!case_.stabilisation) return;
     if (context_.given("stabilisation.scale") && case_.stabilisation->units != GhostUnits::paper)
       context_.fail_at("stabilisation.scale", "only for units = \"paper\"");
-    const auto lumped = [](const AnyStage& stage) {
+    const auto without = [](const AnyStage& stage) {
       const auto* e = std::get_if<ExplicitOptions>(&stage);
-      return e && e->mass == Mass::lumped;
+      return e && e->mass != Mass::consistent;
     };
-    if (std::all_of(case_.stages.begin(), case_.stages.end(), lumped))
+    if (std::all_of(case_.stages.begin(), case_.stages.end(), without))
       context_.fail_at("stabilisation", "no stage uses it: explicit stages do with mass = \"consistent\"");
   }
 
@@ -389,6 +389,12 @@ class Checks {
     if (e.dt && *e.dt > e.duration)
       context_.fail_at(at("dt"),
                        fmt::format("expected at most the duration, {} s, found {} s", e.duration, *e.dt));
+    if (context_.given(at("fmpm_order")) && e.mass != Mass::fmpm)
+      context_.fail_at(at("fmpm_order"), "only for mass = \"fmpm\"");
+    if (e.deactivate_below > 0 && e.mass == Mass::lumped)
+      context_.fail_at(at("deactivate_below"), "a lumped mass needs none; for the other masses only");
+    if (e.integration == Integration::reconstructed && std::holds_alternative<GimpOptions>(case_.basis))
+      context_.fail_at(at("integration"), "reconstruction needs points without domains, not basis 'gimp'");
     if (context_.given(at("pic_fraction")) && e.velocity_update != VelocityUpdate::flip)
       context_.fail_at(at("pic_fraction"), "only for velocity_update = \"flip\"");
     if (e.updated_gradients && e.stress_update != StressUpdate::usf)
