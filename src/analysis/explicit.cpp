@@ -367,7 +367,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
       points(strain);
     }
     const auto timer = model_.timers.start(1);
-    gather(Gather::both, {velocity_, dt});
+    gather(Gather::both, options_.updated_gradients ? FollowedMotion{velocity_, dt} : FollowedMotion{});
   }
   {
     const auto timer = model_.timers.start(3);

@@ -31,6 +31,7 @@ struct ExplicitOptions {
   double cfl = 0.5;
   Mass mass = Mass::lumped;
   StressUpdate stress_update = StressUpdate::usl;
+  bool updated_gradients = false;
   VelocityUpdate velocity_update = VelocityUpdate::flip;
   double pic_fraction = 0.0;
   double damping = 0.0;
@@ -52,6 +53,9 @@ struct ExplicitOptions {
             "lumped mass, or consistent mass (Ghost-stabilised if [stabilisation] is given)"),
         key("stress_update", &O::stress_update, "",
             "stress first (usf), last (usl), or last after a second map of velocities (musl)"),
+        key("updated_gradients", &O::updated_gradients, "",
+            "usf: forces take gradients in the coordinates that the stress has moved to; keeps the energy at "
+            "first order in the time step, not the angular momentum"),
         key("velocity_update", &O::velocity_update, "", "how points get their velocity from the grid"),
         key("pic_fraction", &O::pic_fraction, "-", "blend: this share of PIC in the FLIP update")
             .at_least(0)

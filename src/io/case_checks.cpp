@@ -391,6 +391,8 @@ class Checks {
                        fmt::format("expected at most the duration, {} s, found {} s", e.duration, *e.dt));
     if (context_.given(at("pic_fraction")) && e.velocity_update != VelocityUpdate::flip)
       context_.fail_at(at("pic_fraction"), "only for velocity_update = \"flip\"");
+    if (e.updated_gradients && e.stress_update != StressUpdate::usf)
+      context_.fail_at(at("updated_gradients"), "only for stress_update = \"usf\"");
     const auto no_waves = [](const BodyOptions& b) { return !(p_wave_modulus(b.material) > 0.0); };
     if (!first && std::all_of(case_.bodies.begin(), case_.bodies.end(), no_waves))
       context_.fail_at(
