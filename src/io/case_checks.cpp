@@ -145,9 +145,17 @@ class Checks {
 
   void sampling(const BodyOptions& body, std::size_t i) {
     const std::string path = place("body", i, "sampling");
-    for (const char* sampled : {"method", "points_per_cell", "divisions"})
+    for (const char* sampled : {"method", "points_per_cell", "divisions", "clip", "cuts"})
       if (std::holds_alternative<PointFile>(body.shape) && context_.given(path + "." + sampled))
         context_.fail_at(path, "the points come from a file: there is nothing to sample");
+    const bool cut = body.sampling.clip || !body.sampling.cuts.empty();
+    if (cut && std::holds_alternative<Ball>(body.shape))
+      context_.fail_at(path, "points cannot be cut at a ball; give a polygon (2D), or clip = false");
+    for (std::size_t k = 0; k < body.sampling.cuts.size(); ++k)
+      if (body.sampling.cuts[k].size() != 2 * dim)
+        context_.fail_at(fmt::format("{}.cuts[{}]", path, k),
+                         fmt::format("expected {} numbers (a point and a normal), found {}", 2 * dim,
+                                     body.sampling.cuts[k].size()));
     const bool divided = body.sampling.method == SamplingMethod::divisions;
     if (divided && body.sampling.divisions.empty())
       context_.fail_at(path, "method \"divisions\" needs the key 'divisions'");
