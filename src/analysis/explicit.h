@@ -3,6 +3,7 @@
 #include "analysis/model.h"
 #include "analysis/options.h"
 #include "analysis/record.h"
+#include "boundary/wall_contact.h"
 #include "linear/mass_solver.h"
 #include "stabilise/ghost.h"
 #include "transfer/explicit_transfer.h"
@@ -32,6 +33,10 @@ class Explicit {
   /// last step.
   std::span<const double> start_velocity() const { return velocity_; }
   const BlockMatrix& mass() const { return mass_; }
+  /// Mean over all solves with the consistent mass so far, 0 without any.
+  double iterations_per_solve() const {
+    return solves_ > 0 ? static_cast<double>(iterations_) / static_cast<double>(solves_) : 0.0;
+  }
   /// Warm starts that a resumed run needs for the same bits.
   std::vector<double>& warm_acceleration() { return acceleration_; }
   std::vector<double>& warm_velocity() { return velocity_; }
@@ -46,10 +51,21 @@ class Explicit {
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
-  void check_finite() const;
+  void advance_lumped(double dt);
+  void prescribe(double t, std::vector<double>& velocity);
+  double reaction(std::size_t k) const;
+  void find_reactions();
+  void check_finite(double sum) const;
   void record_energy(EnergyRecord& record) const;
   void add_work(double dt);
   void points(const PointUpdate& update);
+  // Walls, explicit_walls.cpp: their hooks in the order of a step.
+  StepMass step_mass();
+  void find_walls();
+  void correct_strain_velocity(bool alone);
+  void correct_acceleration(double dt);
+  void record_walls();
+  void calm_light_functions(PointUpdate& update);
 
   Model<dim>& model_;
   ExplicitOptions options_;
@@ -57,10 +73,12 @@ class Explicit {
   double dt_ = 0.0;  // of the running step
   bool points_changed_ = false;
   // Arrays over functions; see explicit_transfer.h for the records.
-  std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_,
-      inertia_;
+  RecordArray sums_, motion_;
+  std::vector<double> velocity_, strain_velocity_, acceleration_, loads_, right_side_, inertia_;
   BlockMatrix mass_{1};
   MassSolver solver_;
+  std::int64_t solves_ = 0, iterations_ = 0;
+  WallContact<dim> walls_;
 };
 
 }  // namespace wisp
