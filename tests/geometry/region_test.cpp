@@ -163,6 +163,7 @@ TEST(List, NamesAndKeysAreUniqueAndExplained) {
   check(Ball{});
   check(Polygon{});
   check(PointFile{});
+  check(MeshShape{});
   EXPECT_EQ(names.size(), std::variant_size_v<AnyShape>);
 }
 
