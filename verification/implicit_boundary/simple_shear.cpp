@@ -20,10 +20,16 @@ struct Shear {
   double condition = 0.0;
 };
 
+SolverOptions direct() {
+  SolverOptions o;
+  o.solver = SolverKind::direct;
+  return o;
+}
+
 /// Cells of `h` mm; the block is 100 mm wide and high with its support at x = a; 20 x 20 points over two
 /// cells of the paper, so 10 a direction. Sheared by 10 mm at the free end; top and base keep u_x = 0.
 Shear shear(double a, double h, WallMode mode, std::optional<double> delta, bool condition,
-            const SolverOptions& solver = {SolverKind::direct}) {
+            const SolverOptions& solver = direct()) {
   ModelOptions o;
   const int cells = static_cast<int>(std::lround(side / h));
   o.grid.lower = {-2.0 * h, -h}, o.grid.upper = {2.0 * side + 2.0 * h, side + h};
