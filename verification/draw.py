@@ -26,6 +26,9 @@ def curves(figure, titles, data):
     positive = columns[np.isfinite(columns) & (columns > 0)]
     if positive.size and np.nanmin(columns) > 0 and positive.max() > 1e3 * positive.min():
         axes.set_yscale("log")
+    if len(x) > 2 and x.min() > 0 and np.allclose(x[1:] / x[:-1], x[1] / x[0]):
+        axes.set_xscale("log")  # a sequence of refinements
+        axes.set_yscale("log")
     for title, values in zip(titles[1:], columns.T):
         known = np.isfinite(values)  # a curve may have fewer points than the others
         axes.plot(x[known], values[known], linewidth=1.2, label=title)

@@ -4,8 +4,8 @@
 #include "analysis/options.h"
 #include "analysis/record.h"
 #include "boundary/wall_contact.h"
-#include "linear/mass_solver.h"
 #include "stabilise/ghost.h"
+#include "stabilise/mass_equation.h"
 #include "transfer/explicit_transfer.h"
 
 namespace wisp {
@@ -48,17 +48,18 @@ class Explicit {
  private:
   void gather(Gather what, const FollowedMotion& followed = {});
   void assemble_mass();
+  void prescribe(double t, std::vector<double>& velocity);
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
   void advance_lumped(double dt);
-  void prescribe(double t, std::vector<double>& velocity);
   double reaction(std::size_t k) const;
   void find_reactions();
   void check_finite(double sum) const;
   void record_energy(EnergyRecord& record) const;
   void add_work(double dt);
   void points(const PointUpdate& update);
+  void project_velocity(double dt);
   // Walls, explicit_walls.cpp: their hooks in the order of a step.
   StepMass step_mass();
   void find_walls();
@@ -75,8 +76,9 @@ class Explicit {
   // Arrays over functions; see explicit_transfer.h for the records.
   RecordArray sums_, motion_;
   std::vector<double> velocity_, strain_velocity_, acceleration_, loads_, right_side_, inertia_;
-  BlockMatrix mass_{1};
-  MassSolver solver_;
+  BlockMatrix mass_{1}, ghost_mass_{1};
+  ActiveCells mass_cells_;  // for which their pattern was made
+  MassEquation equation_;
   std::int64_t solves_ = 0, iterations_ = 0;
   WallContact<dim> walls_;
 };

@@ -16,7 +16,7 @@ StepMass Explicit<dim>::step_mass() {
   if (model_.constraints.any) mass.fixed = model_.constraints.fixed;
   if (consistent_)
     mass.solve = [this](std::span<const double> b, std::span<double> dv) {
-      const SolveReport report = solver_.solve(b, dv);
+      const SolveReport report = equation_.solve(b, dv);
       if (!report.solved)
         run_error(
             "step {} at t = {:.6g} s: the solve for the walls' impulses failed ({}); add [stabilisation]",

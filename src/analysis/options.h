@@ -4,19 +4,17 @@
 #include <variant>
 
 #include "core/describe.h"
+#include "stabilise/mass_options.h"
 
 namespace wisp {
 
-enum class Mass { lumped, consistent };
-template <>
-inline constexpr auto choices<Mass> = choice_list<Mass>({{"lumped", Mass::lumped},
-                                                         {"consistent", Mass::consistent}});
-
-enum class StressUpdate { usf, usl, musl };
+enum class StressUpdate { usf, usl, musl, projected };
 template <>
 inline constexpr auto choices<StressUpdate> = choice_list<StressUpdate>({{"usf", StressUpdate::usf},
                                                                          {"usl", StressUpdate::usl},
-                                                                         {"musl", StressUpdate::musl}});
+                                                                         {"musl", StressUpdate::musl},
+                                                                         {"projected",
+                                                                          StressUpdate::projected}});
 
 enum class VelocityUpdate { flip, pic, apic };
 template <>
@@ -24,22 +22,32 @@ inline constexpr auto choices<VelocityUpdate> = choice_list<VelocityUpdate>({{"f
                                                                              {"pic", VelocityUpdate::pic},
                                                                              {"apic", VelocityUpdate::apic}});
 
+enum class Integration { points, reconstructed };
+template <>
+inline constexpr auto choices<Integration> = choice_list<Integration>(
+    {{"points", Integration::points}, {"reconstructed", Integration::reconstructed}});
+
 struct ExplicitOptions {
   double duration = 1.0;
   std::optional<int> steps;
   std::optional<double> dt;
   double cfl = 0.5;
   Mass mass = Mass::lumped;
+  int fmpm_order = 4;
+  double deactivate_below = 0.0;
   StressUpdate stress_update = StressUpdate::usl;
   bool updated_gradients = false;
   VelocityUpdate velocity_update = VelocityUpdate::flip;
   double pic_fraction = 0.0;
+  Integration integration = Integration::points;
   double damping = 0.0;
 
   static constexpr std::string_view name = "explicit";
-  static constexpr std::string_view summary = "Explicit dynamics, Euler-Cromer, lumped or consistent mass";
+  static constexpr std::string_view summary =
+      "Explicit dynamics, Euler-Cromer; lumped, consistent or approximately consistent mass";
   static constexpr std::string_view source =
-      "Coombs 2023, eq. 4-11; Bardenhagen 2002; Jiang et al. 2015 (APIC)";
+      "Coombs 2023, eq. 4-11; Bardenhagen 2002; Jiang et al. 2015 (APIC); de Koster et al. 2021 (projected, "
+      "partial); Nairn and Hammerquist 2021 (FMPM)";
   static constexpr auto keys() {
     using O = ExplicitOptions;
     return std::tuple{
@@ -50,9 +58,17 @@ struct ExplicitOptions {
             "without steps and dt: time step over (shortest cell side / (wave speed + point speed))")
             .positive(),
         key("mass", &O::mass, "",
-            "lumped mass, or consistent mass (Ghost-stabilised if [stabilisation] is given)"),
+            "lumped; consistent (Ghost-stabilised if [stabilisation] is given); partial: consistent, but "
+            "lumped at "
+            "functions of a populated and an empty cell; fmpm: series towards the consistent mass"),
+        key("fmpm_order", &O::fmpm_order, "-", "only fmpm: terms of the series; 1 is lumping").at_least(1),
+        key("deactivate_below", &O::deactivate_below, "kg",
+            "not lumped: functions with a smaller diagonal of the mass matrix take no part (0: all do)")
+            .at_least(0),
         key("stress_update", &O::stress_update, "",
-            "stress first (usf), last (usl), or last after a second map of velocities (musl)"),
+            "stress first (usf), last (usl), or last after a second map of velocities (musl), which may also "
+            "move "
+            "the points and then is the only one (projected)"),
         key("updated_gradients", &O::updated_gradients, "",
             "usf: forces take gradients in the coordinates that the stress has moved to; keeps the energy at "
             "first order in the time step, not the angular momentum"),
@@ -60,6 +76,9 @@ struct ExplicitOptions {
         key("pic_fraction", &O::pic_fraction, "-", "blend: this share of PIC in the FLIP update")
             .at_least(0)
             .at_most(1),
+        key("integration", &O::integration, "",
+            "internal forces by the points, or in filled cells by Gauss points of the stress reconstructed "
+            "there"),
         key("damping", &O::damping, "-",
             "local non-viscous damping: share of the out-of-balance force against the velocity")
             .at_least(0)

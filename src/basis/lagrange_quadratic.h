@@ -46,6 +46,11 @@ class LagrangeQuadratic {
   Stencil tabulate(const Vec<2>& x, int hint) const {
     return tabulate_in(triangulation_->locate(x, hint), x);
   }
+  /// The same with the last triangle as hint: points come in the order of cells.
+  Stencil tabulate(const Vec<2>& x, const Vec<2>& /*half_length*/) const {
+    last_ = triangulation_->locate(x, last_);
+    return tabulate_in(last_, x);
+  }
   /// Stencil at a point of triangle t.
   Stencil tabulate_in(int t, const Vec<2>& x) const {
     const auto b = triangulation_->barycentric(t, x);
@@ -67,6 +72,7 @@ class LagrangeQuadratic {
 
  private:
   const Triangulation* triangulation_;
+  mutable int last_ = -1;
 };
 
 }  // namespace wisp

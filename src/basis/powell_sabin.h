@@ -51,6 +51,11 @@ class PowellSabinSpline {
   Stencil tabulate(const Vec<2>& x, int hint) const {
     return tabulate_in(triangulation().locate(x, hint), x);
   }
+  /// The same with the last triangle as hint: points come in the order of cells.
+  Stencil tabulate(const Vec<2>& x, const Vec<2>& /*half_length*/) const {
+    last_ = triangulation().locate(x, last_);
+    return tabulate_in(last_, x);
+  }
   /// Stencil at a point of triangle t.
   Stencil tabulate_in(int t, const Vec<2>& x) const {
     const Table& table = tables_[static_cast<std::size_t>(t)];
@@ -119,6 +124,7 @@ class PowellSabinSpline {
   std::vector<Vec<2>> control_points_;
   std::vector<Table> tables_;
   int n_functions_ = 0;
+  mutable int last_ = -1;
 };
 
 template <class Terms>

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "material/hencky.h"
+#include "material/jaumann_elastic.h"
 #include "material/linear_elastic.h"
 #include "material/von_mises.h"
 
 namespace wisp {
 
-using AnyLaw = std::variant<LinearElastic, Hencky, VonMises>;
+using AnyLaw = std::variant<LinearElastic, Hencky, VonMises, JaumannElastic>;
 
 /// A law with the states of its points: `old` at the start of a step, `now` the trial at its end. Explicit
 /// steps update `old` in place and may leave `now` empty.

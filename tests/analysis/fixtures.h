@@ -115,7 +115,8 @@ inline ExplicitOptions explicit_steps(double dt, Mass mass = Mass::lumped,
   return e;
 }
 
-constexpr StressUpdate all_schemes[] = {StressUpdate::usf, StressUpdate::usl, StressUpdate::musl};
+constexpr StressUpdate all_schemes[] = {StressUpdate::usf, StressUpdate::usl, StressUpdate::musl,
+                                        StressUpdate::projected};
 
 /// What the mass is in an explicit run.
 enum class MassKind { lumped, consistent, ghost };

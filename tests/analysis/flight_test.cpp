@@ -97,6 +97,15 @@ TEST(FreeFlight, GhostMassKeepsTheMomentumAndAngularMomentumToFirstOrder) {
   }
 }
 
+TEST(FreeFlight, TheProjectedStepKeepsBothMomentaWithGhost) {
+  // It moves points by the (M + M_G)-projection of their velocities, and M_G does not feel linear fields.
+  for (const bool gimp : {false, true}) {
+    const Vec<2> lost = momenta_lost<2>(gimp, MassKind::ghost, StressUpdate::projected, 4e-3, 0.4);
+    EXPECT_LT(lost[0], 1e-10);
+    EXPECT_LT(lost[1], 1e-10);
+  }
+}
+
 TEST(FreeFlight, LumpedMassKeepsTheMomentum) {
   for (const StressUpdate scheme : all_schemes)
     for (const VelocityUpdate update : {VelocityUpdate::flip, VelocityUpdate::pic, VelocityUpdate::apic}) {

@@ -98,6 +98,27 @@ TYPED_TEST(Contract, StressFollowsASuperposedRotation) {
     }
     return;
   }
+  if constexpr (in_small_steps<typename C::Law>) {
+    // A turn of a radian in n steps under initial stress: the error falls as 1/n.
+    Sym<C::dim> sigma = -7.0 * sym_identity<C::dim>();
+    sigma[1] = -12.0, sigma[3] = 2.0;
+    double before = 0.0;
+    for (int n : {500, 1000}) {
+      Mat<C::dim> step = Mat<C::dim>::Identity(), whole = step;
+      const auto turn = [](Mat<C::dim>& m, double angle) {
+        m(0, 0) = m(1, 1) = std::cos(angle), m(1, 0) = std::sin(angle), m(0, 1) = -m(1, 0);
+      };
+      turn(step, 1.0 / n), turn(whole, 1.0);
+      auto state = law.template initial<C::dim>(sigma);
+      for (int i = 0; i < n; ++i) law.template stress<C::dim>({step, 0.01}, state, state);
+      const double error = (state.stress - congruence<C::dim>(whole, sigma)).norm();
+      if (n == 500)
+        before = error;
+      else
+        EXPECT_NEAR(before / error, 2.0, 0.02);
+    }
+    return;
+  }
   for (int i = 0; i < 50; ++i) {
     auto plain = law.template initial<C::dim>(Sym<C::dim>::Zero());
     auto turned = plain;
@@ -122,20 +143,24 @@ TYPED_TEST(Contract, StressIsTheDerivativeOfStoredAndDissipatedEnergy) {
   using C = Contract<TypeParam>;
   const auto law = sample_law<typename C::Law>();
   Random random(10);
-  for (double before : {0.0, 0.003, 0.1})
+  // Per unit of motion the power is M times the strain; a rate form misses it by a share of the strain.
+  constexpr bool small = in_small_steps<typename C::Law>;
+  for (double before : small ? std::vector{0.0, 1e-4, 1e-3} : std::vector{0.0, 0.003, 0.1})
     for (int i = 0; i < 40; ++i) {
+      const double step = small ? std::max(before, 1e-5) : 0.2;
+      const double tolerance = small ? 100.0 * step * step : 1e-10;
       const auto old = C::walked(law, random, before, 2);
-      const auto k = random.motion<C::dim>(0.2);
+      const auto k = random.motion<C::dim>(step);
       const Mat<C::dim> g = random.matrix<C::dim>(1.0);
       const auto energy = [&](double size) {
         const auto now = after<C::dim>(law, C::varied(k, g, size), old);
         return law.template strain_energy<C::dim>(now) + law.template dissipation<C::dim>(now);
       };
-      const double h = 2e-4;
+      const double h = small ? 1e-3 * step : 2e-4;
       const double numeric =
           (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h))) / (12.0 * h);
       const double power = matrix<C::dim>(after<C::dim>(law, k, old).stress).cwiseProduct(g).sum();
-      EXPECT_NEAR(power, numeric, 1e-10 * law.p_wave_modulus());
+      EXPECT_NEAR(power, numeric, tolerance * law.p_wave_modulus());
     }
 }
 

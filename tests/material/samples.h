@@ -24,6 +24,12 @@ struct PairsOf<std::variant<Laws...>> {
 /// Every law of the list in two and three dimensions.
 using AllPairs = PairsOf<AnyLaw>::type;
 
+/// Laws in rate form keep objectivity and energy only to first order in the step.
+template <class Law>
+inline constexpr bool in_small_steps = requires {
+  requires Law::rate_form;
+};
+
 /// Sets a key of a law if it has one of that name.
 template <class Law>
 void set(Law& law, std::string_view name, double value) {

@@ -1,0 +1,189 @@
+// Forces by Gauss points of a reconstructed stress: the patch test, linear stress, sums.
+#include "transfer/reconstruction.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "transfer/explicit_transfer.h"
+
+namespace wisp {
+namespace {
+
+/// sigma(x) = constant + x gradient_x + y gradient_y, in the plane.
+struct StressField {
+  Mat<2> constant = Mat<2>::Zero(), gradient_x = Mat<2>::Zero(), gradient_y = Mat<2>::Zero();
+  Sym<2> at(const Vec<2>& x) const {
+    const Mat<2> s = constant + x[0] * gradient_x + x[1] * gradient_y;
+    return {s(0, 0), s(1, 1), 0.0, 0.5 * (s(0, 1) + s(1, 0))};
+  }
+  Vec<2> divergence() const { return gradient_x.col(0) + gradient_y.col(1); }
+};
+
+StressField linear_field() {
+  StressField f;
+  f.constant << 3.0, 1.0, 1.0, -2.0;
+  f.gradient_x << 0.7, 0.2, 0.2, -0.4;
+  f.gradient_y << -0.3, 0.5, 0.5, 1.1;
+  return f;
+}
+
+/// n x n cells of side 1 with 16 points each at random; a law whose stress is the Cauchy stress.
+Body<2> random_body(int n, const StressField& field) {
+  Body<2> body{"body", {}, make_material<2>(AnyLaw(LinearElastic{}))};
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0.01, 0.99);
+  auto& states = std::get<MaterialStates<LinearElastic, 2>>(body.material).old;
+  for (int c = 0; c < n * n; ++c)
+    for (int k = 0; k < 16; ++k) {
+      // Four in each quarter that a split into four triangles makes.
+      const double u = share(random), v = share(random) * (1.0 - std::abs(2.0 * u - 1.0)) * 0.49 + 0.005;
+      const Vec<2> local = k % 4 == 0   ? Vec<2>(u, v)
+                           : k % 4 == 1 ? Vec<2>(1.0 - v, u)
+                           : k % 4 == 2 ? Vec<2>(u, 1.0 - v)
+                                        : Vec<2>(v, u);
+      body.points.position.push_back(Vec<2>(c % n, c / n) + local);
+      body.points.volume.push_back(1.0 / 16), body.points.mass.push_back(1.0);
+      body.points.velocity.push_back(Vec<2>::Zero());
+      body.points.deformation_gradient.push_back(Mat<2>::Identity());
+      states.push_back({field.at(body.points.position.back())});
+    }
+  return body;
+}
+
+/// Internal forces of all functions after reconstruction.
+std::vector<Vec<2>> forces(const Space<2>& space, std::vector<Body<2>> bodies) {
+  for (auto& body : bodies) {
+    body.points.cell.clear();
+    for (const auto& x : body.points.position) {
+      if (space.structured()) {
+        MultiIndex<2> c;
+        for (int d = 0; d < 2; ++d) c[d] = space.grid().locate_inside(d, x[d]);
+        body.points.cell.push_back(space.window().cell_index(c));
+      } else {
+        body.points.cell.push_back(space.triangulation().locate(x));
+      }
+    }
+  }
+  std::vector<double> sums(static_cast<std::size_t>(space.n_functions() * sums_stride<2>), 0.0);
+  for (const auto& body : bodies) points_to_grid<2>(space, body, Gather::force, Vec<2>::Zero(), false, sums);
+  add_reconstruction<2>(space, bodies, active_cells(space, bodies), sums);
+  std::vector<Vec<2>> list;
+  for (int i = 0; i < space.n_functions(); ++i)
+    list.emplace_back(sums[static_cast<std::size_t>(i * sums_stride<2> + 3)],
+                      sums[static_cast<std::size_t>(i * sums_stride<2> + 4)]);
+  return list;
+}
+
+std::unique_ptr<Space<2>> squares(int n) {
+  std::array<std::vector<double>, 2> lines;
+  for (int i = 0; i <= n; ++i) lines[0].push_back(i), lines[1].push_back(i);
+  const StructuredGrid<2> grid(lines);
+  return std::make_unique<Space<2>>(grid, BoxPartition<2>(grid.cells()), false);
+}
+
+std::unique_ptr<Space<2>> triangles(int n, const AnyBasisOptions& basis) {
+  std::vector<Vec<2>> vertices;
+  std::vector<std::array<int, 3>> list;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) vertices.emplace_back(i, j);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
+      const int m = static_cast<int>(vertices.size());
+      vertices.emplace_back(i + 0.5, j + 0.5);
+      for (const auto& t : {std::array{a, b, m}, std::array{b, c, m}, std::array{c, d, m}, std::array{d, a, m}})
+        list.push_back(t);
+    }
+  return std::make_unique<Space<2>>(std::make_shared<const Triangulation>(vertices, list), basis);
+}
+
+/// Functions of vertices that lie inside the grid.
+bool inside(const Space<2>& space, int i, int n) {
+  const Vec<2> x = space.node_position(i);
+  return x[0] > 0.9 && x[0] < n - 0.9 && x[1] > 0.9 && x[1] < n - 0.9;
+}
+
+constexpr int n = 5;
+
+TEST(Reconstruction, OfConstantStressLeavesNoForceInside) {
+  StressField field = linear_field();
+  field.gradient_x.setZero(), field.gradient_y.setZero();
+  for (const auto& space : {squares(n), triangles(n, LinearOptions{}), triangles(n, PowellSabinOptions{})}) {
+    const auto f = forces(*space, {random_body(n, field)});
+    double points_only = 0.0;
+    std::vector<double> sums(static_cast<std::size_t>(space->n_functions() * sums_stride<2>), 0.0);
+    points_to_grid<2>(*space, random_body(n, field), Gather::force, Vec<2>::Zero(), false, sums);
+    for (int i = 0; i < space->n_functions(); ++i)
+      if (inside(*space, i, n)) {
+        EXPECT_LT(f[static_cast<std::size_t>(i)].norm(), 1e-13);
+        points_only = std::max(points_only, std::abs(sums[static_cast<std::size_t>(i * sums_stride<2> + 3)]));
+      }
+    EXPECT_GT(points_only, 0.05) << "which the points by themselves do not manage";
+  }
+}
+
+TEST(Reconstruction, IntegratesLinearStressExactlyOnSquares) {
+  const auto space = squares(n);
+  const auto f = forces(*space, {random_body(n, linear_field())});
+  for (int i = 0; i < space->n_functions(); ++i)
+    if (inside(*space, i, n)) {
+      EXPECT_LT((f[static_cast<std::size_t>(i)] - linear_field().divergence()).norm(), 1e-12) << "the hat's area is 1";
+    }
+}
+
+TEST(Reconstruction, GivesTheDivergenceTimesTheFunctionsIntegralOnTriangles) {
+  StressField one, two;
+  one.gradient_x(0, 0) = 1.0;                          // divergence (1, 0)
+  two.gradient_y(1, 1) = 2.0, two.constant(0, 0) = 9;  // divergence (0, 2)
+  for (const AnyBasisOptions& basis : {AnyBasisOptions(LinearOptions{}), AnyBasisOptions(PowellSabinOptions{})}) {
+    const auto space = triangles(n, basis);
+    const auto a = forces(*space, {random_body(n, one)}), b = forces(*space, {random_body(n, two)});
+    for (int i = 0; i < space->n_functions(); ++i) {
+      if (!inside(*space, i, n)) continue;
+      const auto k = static_cast<std::size_t>(i);
+      EXPECT_GT(a[k][0], 0.0);
+      EXPECT_NEAR(a[k][1], 0.0, 1e-13);
+      EXPECT_NEAR(b[k][1], 2.0 * a[k][0], 1e-13);
+      EXPECT_NEAR(b[k][0], 0.0, 1e-12);
+    }
+  }
+}
+
+TEST(Reconstruction, KeepsTheSumOfForcesAndLeavesTheEdgeOfTheBodyToThePoints) {
+  const auto space = triangles(n, PowellSabinOptions{});
+  Body<2> body = random_body(n, linear_field());
+  // Without the points beyond x = 3.2 the triangles there are empty, and those beside them not filled.
+  auto& states = std::get<MaterialStates<LinearElastic, 2>>(body.material).old;
+  Body<2> part = body;
+  auto& kept_states = std::get<MaterialStates<LinearElastic, 2>>(part.material).old;
+  part.points = {};
+  kept_states.clear();
+  for (std::size_t p = 0; p < body.points.position.size(); ++p)
+    if (body.points.position[p][0] < 3.2) {
+      part.points.position.push_back(body.points.position[p]), part.points.volume.push_back(1.0 / 16);
+      part.points.mass.push_back(1.0), part.points.velocity.push_back(Vec<2>::Zero());
+      part.points.deformation_gradient.push_back(Mat<2>::Identity());
+      kept_states.push_back(states[p]);
+    }
+  const auto f = forces(*space, {part});
+  Vec<2> sum = Vec<2>::Zero();
+  for (const auto& g : f) sum += g;
+  EXPECT_LT(sum.norm(), 1e-11);
+  std::vector<double> sums(static_cast<std::size_t>(space->n_functions() * sums_stride<2>), 0.0);
+  points_to_grid<2>(*space, part, Gather::force, Vec<2>::Zero(), false, sums);
+  int same = 0, changed = 0;
+  for (int i = 0; i < space->n_functions(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double difference = (f[k] - Vec<2>(sums[k * sums_stride<2> + 3], sums[k * sums_stride<2> + 4])).norm();
+    const double x = space->node_position(i)[0];
+    if (x > 3.9) same += difference < 1e-14;
+    if (x < 1.9) changed += difference > 1e-6;
+  }
+  EXPECT_GT(same, 10);
+  EXPECT_GT(changed, 10);
+}
+
+}  // namespace
+}  // namespace wisp

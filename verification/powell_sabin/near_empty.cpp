@@ -1,0 +1,223 @@
+// The open issue of the thesis's chapter 5, triangles that are almost empty: what each treatment of the mass makes
+// of it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verification/powell_sabin/disc.h"
+#include "verification/powell_sabin/exact.h"
+#include "verification/powell_sabin/histories.h"
+#include "verification/powell_sabin/dynamics.h"
+#include "verification/published.h"
+
+namespace wisp {
+
+namespace {
+using namespace powell_sabin;
+
+struct Treatment {
+  const char* name;
+  Mass mass;
+  double deactivate_below;
+  bool ghost;
+};
+constexpr Treatment treatments[] = {
+    {"consistent", Mass::consistent, 0.0, false}, {"lumped", Mass::lumped, 0.0, false},
+    {"partially lumped", Mass::partial, 0.0, false}, {"deactivated", Mass::consistent, 1e-2, false},
+    {"FMPM(4)", Mass::fmpm, 0.0, false},          {"Ghost", Mass::consistent, 0.0, true}};
+
+/// The thesis's column under its own weight, table 4.6, over a little more than five periods.
+StripCase column(int across, int blocks, int points) {
+  StripCase s = large_column();
+  s.blocks_across = across, s.blocks = blocks, s.points = s.points_across = points;
+  s.empty_blocks = 1, s.hencky = true;
+  // A quarter of the critical step of the consistent mass on 2x16 blocks, and coarser ones alike.
+  s.dt = 2.5e-4 * std::min(1.0, 16.0 / blocks), s.duration = 2.2, s.record_every = 8;
+  return s;
+}
+
+StripCase treated(StripCase s, const Treatment& t) {
+  s.mass = t.mass, s.deactivate_below = t.deactivate_below;
+  if (t.ghost) s.ghost = GhostOptions{};
+  return s;
+}
+
+/// Largest gain of energy over the start, in units of the largest kinetic energy.
+double energy_gain(const StripRun& run) {
+  double most = 0.0;
+  for (const double e : run.energy) most = std::max(most, e - run.energy.front());
+  return run.kinetic_scale > 0 ? most / run.kinetic_scale : 0.0;
+}
+
+std::string grid_name(const StripCase& s) {
+  return fmt::format("{}x{} blocks, {} points a triangle", s.blocks_across, s.blocks, s.points * s.points_across / 4);
+}
+
+std::vector<VerificationRow> blocks(const VerificationRequest& request) {
+  std::vector<VerificationRow> rows;
+  std::vector<StripCase> grids{column(1, 4, 12), column(1, 8, 12), column(2, 16, 12)};
+  if (request.full) grids.push_back(column(4, 32, 12)), grids.push_back(column(8, 64, 12));
+  std::vector<FigureColumn> errors{{"h [m]", {}}};
+  for (const auto& t : treatments) errors.push_back({t.name, {}});
+  std::vector<std::pair<std::string, StripRun>> shown;
+  Reference shown_reference;
+  std::vector<double> ghost;
+  double worst_condition = 0.0;
+  for (const StripCase& grid : grids) {
+    errors.front().values.push_back(grid.length / grid.blocks);
+    double lumped = 0.0;
+    Reference reference;
+    std::vector<std::pair<std::string, StripRun>> runs;
+    for (std::size_t k = 0; k < std::size(treatments); ++k) {
+      const Treatment& t = treatments[k];
+      StripCase s = treated(grid, t);
+      s.with_conditions = t.ghost;
+      const StripRun run = run_strip(s);
+      const std::string name = std::string(t.name) + ", " + grid_name(s);
+      if (run.stable() && reference.time.empty()) reference = ulfem_reference(s, run.middle, run.time);
+      const double error = run.stable() ? largest_error(run, reference) : std::nan("");
+      errors[k + 1].values.push_back(error);
+      if (run.stable()) {
+        rows.push_back(number(name, "largest displacement error (m)", error));
+        rows.push_back(number(name, "gain of energy / largest kinetic energy", energy_gain(run)));
+      } else {
+        rows.push_back(number(name, "became unstable at (s)", run.end));
+      }
+      if (t.mass == Mass::lumped) lumped = error;
+      runs.emplace_back(t.name, run);
+      if (!t.ghost) continue;
+      rows.push_back(bound(name, "stable over five periods", run.end, run.stable() && run.end > 2.0));
+      rows.push_back(bound(name, "lumping's error over Ghost's", lumped / error, lumped / error > 5.0));
+      if (!ghost.empty())
+        rows.push_back(bound(name, "error over that of the grid before", error / ghost.back(), error < 1.5 * ghost.back()));
+      ghost.push_back(error);
+      for (const double c : run.condition) worst_condition = std::max(worst_condition, c);
+      rows.push_back(number(name, "largest condition number of the mass",
+                            run.condition.empty() ? std::nan("") : *std::max_element(run.condition.begin(), run.condition.end())));
+    }
+    if (grid.blocks == 8) shown = runs, shown_reference = reference;
+  }
+  rows.push_back(bound("Ghost, finest over coarsest grid", "ratio of errors", ghost.back() / ghost.front(),
+                       ghost.back() < ghost.front() / 3.0));
+  rows.push_back(bound("Ghost, all grids", "largest condition number of the mass", worst_condition, worst_condition < 1e8));
+  write_curves(request.folder, "near-empty.blocks", "Soil column: largest displacement error over five periods", errors);
+  write_history(request, "near-empty.blocks-1x8", "Soil column, 1x8 blocks, every treatment", shown, shown_reference, "ULFEM");
+  return rows;
+}
+
+std::vector<VerificationRow> delaunay(const VerificationRequest& request) {
+  std::vector<VerificationRow> rows;
+  for (const auto& t : treatments) {
+    if (t.mass != Mass::lumped && !t.ghost && !request.full) continue;
+    int stable = 0;
+    double worst = 0.0, sum = 0.0, gain = 0.0;
+    for (int seed = 1; seed <= 20; ++seed) {
+      StripCase s = treated(column(1, 8, 12), t);
+      s.delaunay_seed = seed;
+      const StripRun run = run_strip(s);
+      if (!run.stable()) continue;
+      ++stable;
+      const double error = largest_error(run, ulfem_reference(s, run.middle, run.time));
+      worst = std::max(worst, error), sum += error, gain = std::max(gain, energy_gain(run));
+    }
+    const std::string name = std::string(t.name) + ", 20 random triangulations";
+    if (t.ghost)
+      rows.push_back(bound(name, "stable", stable, stable == 20));
+    else
+      rows.push_back(number(name, "stable", stable));
+    if (stable == 0) continue;
+    rows.push_back(number(name, "mean of the largest displacement errors (m)", sum / stable));
+    rows.push_back(number(name, "worst of the largest displacement errors (m)", worst));
+    rows.push_back(number(name, "largest gain of energy / largest kinetic energy", gain));
+  }
+  return rows;
+}
+
+/// Few points a triangle: what the quadrature does to the energy.
+std::vector<VerificationRow> few_points(const VerificationRequest&) {
+  std::vector<VerificationRow> rows;
+  for (const int points : {2, 3, 4, 6, 8})
+    for (const GhostElements elements : {GhostElements::ring, GhostElements::ring_all}) {
+      StripCase s = column(1, 8, points);
+      s.ghost = GhostOptions{};
+      s.ghost->elements = elements;
+      const StripRun run = run_strip(s);
+      const std::string name = fmt::format("{} points a triangle, {}", 0.25 * points * points,
+                                           elements == GhostElements::ring ? "ring" : "ring-all");
+      rows.push_back(number(name, run.stable() ? "gain of energy / largest kinetic energy" : "became unstable at (s)",
+                            run.stable() ? energy_gain(run) : run.end));
+      if (run.stable())
+        rows.push_back(number(name, "largest displacement error (m)",
+                              largest_error(run, ulfem_reference(s, run.middle, run.time))));
+    }
+  return rows;
+}
+
+/// Linear functions and cubic splines on the same column.
+std::vector<VerificationRow> other_functions(const VerificationRequest&) {
+  std::vector<VerificationRow> rows;
+  for (const bool cubic : {false, true})
+    for (const bool ghost : {false, true})
+      for (const StripCase& grid : {column(1, 8, 12), column(2, 16, 12)}) {
+        StripCase s = grid;
+        s.splines = cubic, s.cubic = cubic;
+        if (cubic) s.dt /= 2.0;
+        if (ghost) s.ghost = GhostOptions{};
+        const StripRun run = run_strip(s);
+        const std::string name = fmt::format("{}{}, {}", cubic ? "cubic splines" : "linear functions",
+                                             ghost ? ", Ghost" : ", no treatment", grid_name(s));
+        if (!run.stable()) {
+          rows.push_back(number(name, "became unstable at (s)", run.end));
+          continue;
+        }
+        rows.push_back(number(name, "largest displacement error (m)",
+                              largest_error(run, ulfem_reference(s, run.middle, run.time))));
+        rows.push_back(number(name, "gain of energy / largest kinetic energy", energy_gain(run)));
+      }
+  return rows;
+}
+
+/// A disc that flies, turns and breathes: nothing of it was used to choose the penalty.
+std::vector<VerificationRow> disc(const VerificationRequest& request) {
+  std::vector<VerificationRow> rows;
+  const auto add = [&](const std::string& name, const DiscCase& d, bool gated) {
+    const DiscRun run = run_disc(d);
+    if (!run.failure.empty()) {
+      rows.push_back(gated ? bound(name, "stable", 0.0, false) : number(name, "became unstable at (s)", run.end));
+      return;
+    }
+    const auto row = [&](const char* quantity, double value, double limit) {
+      rows.push_back(gated ? bound(name, quantity, value, value < limit) : number(name, quantity, value));
+    };
+    row("change of momentum, relative", run.momentum, 1e-12);
+    row("change of angular momentum, relative", run.angular_momentum, d.mass == Mass::consistent ? 1e-12 : 1.0);
+    row("largest change of energy, relative", run.energy, 0.005);
+  };
+  for (const auto& t : treatments) {
+    DiscCase d;
+    d.mass = t.mass, d.deactivate_below = t.deactivate_below;
+    if (t.ghost) d.ghost = GhostOptions{};
+    add(std::string(t.name) + ", disc on a random triangulation", d, t.ghost);
+  }
+  for (const GhostElements elements : {GhostElements::ring, GhostElements::ring_all})
+    for (const double gamma : {0.0025, 0.025, 0.25, 2.5}) {
+      if (!request.full && gamma != 0.025 && gamma != 0.25) continue;
+      DiscCase d;
+      d.ghost = GhostOptions{};
+      d.ghost->mass = gamma, d.ghost->elements = elements;
+      add(fmt::format("Ghost, {}, gamma = {:g}", elements == GhostElements::ring ? "ring" : "ring-all", gamma), d, false);
+    }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<VerificationTable> near_empty_tables() {
+  return {{"near-empty.blocks", "Soil column on blocks: every treatment of the mass", blocks, false},
+          {"near-empty.delaunay", "Soil column on 20 random triangulations", delaunay, false},
+          {"near-empty.few-points", "Soil column with few points a triangle", few_points, false},
+          {"near-empty.other-functions", "Soil column: linear functions and cubic splines", other_functions, false},
+          {"near-empty.disc", "A disc in free flight", disc, false}};
+}
+
+}  // namespace wisp
