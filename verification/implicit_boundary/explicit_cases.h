@@ -4,8 +4,8 @@
 
 namespace wisp::explicit_walls {
 
-/// A block slides down 30 degrees; gravity comes over 0.2 s. Acceleration by a straight line through the
-/// velocity from 0.3 s on, over the closed form g (sin - friction cos).
+/// A block slides down 30 degrees; gravity comes over 0.3 s. Acceleration by a straight line through the
+/// velocity from 0.4 s on, over the closed form g (sin - friction cos).
 struct Slide {
   double acceleration = 0.0;  ///< over the closed form
   double imbalance = 0.0;     ///< largest |momentum - impulses of wall and gravity| over the last momentum
