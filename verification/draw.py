@@ -11,7 +11,10 @@ from matplotlib.figure import Figure
 def read(path):
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
-    return rows[0], np.array([[float(cell) for cell in row] for row in rows[1:]])
+    titles, data = rows[0], np.array([[float(cell) for cell in row] for row in rows[1:]])
+    if data.ndim != 2 or data.shape[1] != len(titles):
+        raise SystemExit(f"{path}: {len(titles)} titles for rows of another length")
+    return titles, data
 
 
 def curves(figure, titles, data):

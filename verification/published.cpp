@@ -46,7 +46,11 @@ void write_figure(const std::filesystem::path& folder, const std::string& name, 
                   const std::vector<FigureColumn>& columns, bool points) {
   if (Session::rank() != 0) return;
   std::string text;
-  for (std::size_t c = 0; c < columns.size(); ++c) text += (c ? "," : "") + columns[c].title;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const std::string& words = columns[c].title;
+    // A comma in a title would shift the names of all later columns, so such a title is quoted.
+    text += (c ? "," : "") + (words.find(',') == std::string::npos ? words : '"' + words + '"');
+  }
   text += "\n";
   for (std::size_t i = 0; i < columns[0].values.size(); ++i) {
     for (std::size_t c = 0; c < columns.size(); ++c)

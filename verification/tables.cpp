@@ -1,14 +1,16 @@
 #include "verification/tables.h"
 
 #include "verification/ghost/list.h"
+#include "verification/implicit_boundary/list.h"
 #include "verification/powell_sabin/dynamics.h"
 
 namespace wisp {
 
 std::vector<VerificationTable> verification_tables() {
   std::vector<VerificationTable> all;
-  for (auto* paper : {ghost_tables, bar_tables, column_thesis_tables, near_empty_tables})
-    for (auto& table : paper()) all.push_back(std::move(table));
+  for (auto* list :
+       {ghost_tables, implicit_boundary_tables, bar_tables, column_thesis_tables, near_empty_tables})
+    for (auto& table : list()) all.push_back(std::move(table));
   return all;
 }
 

@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "transfer/active.h"
 #include "transfer/explicit_transfer.h"
-#include "transfer/mass.h"
 #include "transfer/reconstruction.h"
 
 namespace wisp {
@@ -18,6 +17,13 @@ MassSolverOptions mass_solver_options(const SolverOptions& solver) {
   options.max_iterations = solver.max_iterations;
   return options;
 }
+
+template <int dim>
+std::vector<Wall<dim>> walls_of(const std::vector<AnyBoundary<dim>>& boundaries) {
+  std::vector<Wall<dim>> walls;
+  for_each<Wall>(boundaries, [&](const Wall<dim>& wall, std::size_t) { walls.push_back(wall); });
+  return walls;
+}
 }  // namespace
 
 template <int dim>
@@ -26,7 +32,8 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
       options_(options),
       consistent_(options.mass != Mass::lumped),
       equation_({options.mass, options.fmpm_order, options.deactivate_below},
-                mass_solver_options(model.options.solver)) {
+                mass_solver_options(model.options.solver)),
+      walls_(walls_of(model.boundaries), *model.space) {
   if (options.velocity_update == VelocityUpdate::apic)
     for (auto& body : model_.bodies)
       if (body.points.affine.empty())
@@ -34,6 +41,7 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
   for (const char* name : {"1 locate, stencils", "2 mass, momentum, forces to grid", "3 contributions",
                            "4 solve for acceleration", "5-7 grid to points, deformation, stress, move"})
     model_.timers.part(name);
+  if (!walls_.empty()) model_.timers.part("walls");
 }
 
 template <int dim>
@@ -78,158 +86,97 @@ void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
-template <int dim>
-void Explicit<dim>::assemble_mass() {
-  const auto& space = *model_.space;
-  const ActiveCells cells = active_cells(space, model_.bodies);
-  const auto& ghost = model_.options.stabilisation;
-  // A series of the mass converges without a penalty, not with one.
-  const bool with_ghost = ghost && options_.mass == Mass::consistent;
-  // Points without domains meet the functions of their cells: the same cells, the same pattern and penalty.
-  const bool kept = Session::size() == 1 && !space.domains() && cells.bits == mass_cells_.bits &&
-                    mass_.n_local() == space.n_functions();
-  if (!kept) {
-    std::vector<GhostFacet> facets;
-    if (with_ghost)
-      facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), ghost->elements);
-    mass_.begin_pattern(space.n_functions());
-    add_point_pattern(space, model_.bodies, mass_);
-    add_ghost_pattern(space, facets, mass_);
-    mass_.end_pattern();
-    if (with_ghost) {
-      ghost_mass_.share_pattern(mass_);
-      add_ghost(space, facets, *ghost, GhostMatrix::mass, ghost_mass_);
-    }
-    mass_cells_ = cells;
-  }
-  mass_.zero();
-  add_consistent_mass(space, model_.bodies, mass_);
-  if (with_ghost) mass_.add_matrix(1.0, ghost_mass_);
-  std::vector<char> active = active_functions(space, with_ghost ? ghost_cells(space, cells, *ghost) : cells);
-  for (std::size_t i = 0; i < active.size(); ++i)
-    if (!with_ghost && sums_[i * sums_stride<dim>] <= 0.0) active[i] = 0;
-  std::vector<double> lumped(active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) lumped[i] = sums_[i * sums_stride<dim>];
-  std::vector<char> boundary;
-  if (options_.mass == Mass::partial) boundary = boundary_functions(space, cells);
-  equation_.set_matrix(
-      mass_, space.nodes(), dim, std::move(active),
-      model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>(),
-      std::move(lumped), boundary);
-}
-
-/// Velocities that conditions prescribe at time t.
-template <int dim>
-void Explicit<dim>::prescribe(double t, std::vector<double>& velocity) {
-  auto& constraints = model_.constraints;
-  set_velocities(model_.boundaries, t - dt_, dt_, constraints);
-  for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-    if (constraints.fixed[k]) velocity[k] = constraints.prescribed(k);
-}
-
-/// Velocity from the gathered momentum (Coombs 2023, eq. 10); prescribed where a condition holds, as at time
-/// t.
-template <int dim>
-void Explicit<dim>::solve_velocity(double t, std::vector<double>& velocity) {
-  const auto n = static_cast<std::size_t>(model_.space->n_functions());
-  velocity.resize(n * dim, 0.0);
-  const auto& constraints = model_.constraints;
-  if (!consistent_) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const double* const s = sums_.data() + i * sums_stride<dim>;
-      const double per_mass = s[0] > 0 ? 1.0 / s[0] : 0.0;
-      for (std::size_t d = 0; d < dim; ++d) velocity[i * dim + d] = s[1 + d] * per_mass;
-    }
-    if (constraints.any) prescribe(t, velocity);
-    return;
-  }
-  right_side_.resize(n * dim);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t d = 0; d < dim; ++d) right_side_[i * dim + d] = sums_[i * sums_stride<dim> + 1 + d];
-  if (constraints.any) prescribe(t, velocity);
-  const SolveReport report = equation_.solve(right_side_, velocity);
-  if (!report.solved)
-    run_error(
-        "step {} at t = {:.6g} s: the velocity solve with the consistent mass failed ({}); add "
-        "[stabilisation], or use mass = \"lumped\"",
-        model_.step, model_.time, report.cause);
-}
-
-template <int dim>
-void Explicit<dim>::solve_acceleration(double dt) {
-  const auto n = static_cast<std::size_t>(model_.space->n_functions());
-  auto& constraints = model_.constraints;
-  acceleration_.resize(n * dim, 0.0);
-  right_side_.resize(n * dim);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t d = 0; d < dim; ++d) {
-      double f = sums_[i * sums_stride<dim> + 1 + dim + d];
-      if (!loads_.empty()) f += loads_[i * dim + d];
-      // Local non-viscous damping (Cundall 1987): a share of the out-of-balance force, against the velocity.
-      if (options_.damping > 0)
-        f -= options_.damping * std::abs(f) *
-             (velocity_[i * dim + d] > 0   ? 1.0
-              : velocity_[i * dim + d] < 0 ? -1.0
-                                           : 0.0);
-      right_side_[i * dim + d] = f;
-    }
-  if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
-  for (std::size_t k = 0; k < constraints.fixed.size(); ++k)
-    if (constraints.fixed[k]) acceleration_[k] = (constraints.prescribed(k) - velocity_[k]) / dt;
-  if (consistent_) {
-    const SolveReport report = equation_.solve(right_side_, acceleration_);
-    if (!report.solved)
-      run_error(
-          "step {} at t = {:.6g} s: the solve for the acceleration failed ({}); add [stabilisation], or use "
-          "mass = \"lumped\"",
-          model_.step, model_.time, report.cause);
-  } else {
-    for (std::size_t i = 0; i < n; ++i) {
-      const double mass = sums_[i * sums_stride<dim>];
-      const double per_mass = mass > 0 ? 1.0 / mass : 0.0;
-      for (std::size_t d = 0; d < dim; ++d)
-        if (constraints.fixed.empty() || !constraints.fixed[i * dim + d])
-          acceleration_[i * dim + d] = right_side_[i * dim + d] * per_mass;
-    }
-  }
-}
-
-/// End-of-step velocity (eq. 11) and acceleration side by side, as the points read them; reactions on the
-/// way.
+/// Motion of the points' functions from velocity and acceleration (eq. 11).
 template <int dim>
 void Explicit<dim>::set_motion(double dt) {
   const auto n = static_cast<std::size_t>(model_.space->n_functions());
   motion_.resize(n * motion_stride<dim>);
+  double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t d = 0; d < dim; ++d) {
-      motion_[i * motion_stride<dim> + d] = velocity_[i * dim + d] + dt * acceleration_[i * dim + d];
-      motion_[i * motion_stride<dim> + dim + d] = acceleration_[i * dim + d];
+      const double a = acceleration_[i * dim + d], v = velocity_[i * dim + d] + dt * a;
+      motion_[i * motion_stride<dim> + d] = v, motion_[i * motion_stride<dim> + dim + d] = a;
+      sum += v * v + a * a;
     }
+  check_finite(sum);
+}
+
+/// Everything between the sums and the motion with a lumped mass, in one pass over the functions (Coombs
+/// 2023, eq. 10 and 11): a function's numbers are read and written once.
+template <int dim>
+void Explicit<dim>::advance_lumped(double dt) {
+  const auto n = static_cast<std::size_t>(model_.space->n_functions());
+  auto& constraints = model_.constraints;
+  velocity_.resize(n * dim), acceleration_.resize(n * dim), right_side_.resize(n * dim);
+  motion_.resize(n * motion_stride<dim>);
+  const double* const sums = sums_.data();
+  const double* const loads = loads_.empty() ? nullptr : loads_.data();
+  double* const velocity = velocity_.data();
+  double* const acceleration = acceleration_.data();
+  double* const force = right_side_.data();
+  double* const motion = motion_.data();
+  const double damping = options_.damping;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double* const s = sums + i * sums_stride<dim>;
+    const double per_mass = s[0] > 0 ? 1.0 / s[0] : 0.0;
+    double squares = 0.0;
+    for (std::size_t d = 0; d < dim; ++d) {
+      const std::size_t k = i * dim + d;
+      const double v = s[1 + d] * per_mass;
+      double f = s[1 + dim + d];
+      if (loads) f += loads[k];
+      if (damping > 0) f -= damped(damping, f, v);
+      const double a = f * per_mass, end = v + dt * a;
+      velocity[k] = v, acceleration[k] = a, force[k] = f;
+      motion[i * motion_stride<dim> + d] = end, motion[i * motion_stride<dim> + dim + d] = a;
+      squares += end * end + a * a;
+    }
+    sum += squares;
+  }
+  prescribe(model_.time, velocity_);
+  if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
+  for (const std::size_t k : constraints.held) {
+    // The force of an unknown that is held by a velocity is damped by that velocity.
+    if (damping > 0) {
+      const double f = sums[k / dim * sums_stride<dim> + 1 + dim + k % dim] + (loads ? loads[k] : 0.0);
+      force[k] = f - damped(damping, f, velocity[k]);
+    }
+    const double end = constraints.prescribed(k), a = (end - velocity[k]) / dt;
+    acceleration[k] = a;
+    double* const m = motion + k / dim * motion_stride<dim> + k % dim;
+    m[0] = velocity[k] + dt * a, m[dim] = a;
+    sum += m[0] * m[0] + a * a;
+  }
+  check_finite(sum);
+}
+
+/// R = M a - f at a held unknown.
+template <int dim>
+double Explicit<dim>::reaction(std::size_t k) const {
+  return (consistent_ ? inertia_[k] : sums_[k / dim * sums_stride<dim>] * acceleration_[k]) - right_side_[k];
+}
+
+/// Reactions R = M a - f of held unknowns.
+template <int dim>
+void Explicit<dim>::find_reactions() {
   if (!model_.constraints.any) return;
-  // R = M a - f at held unknowns.
   if (consistent_) {
-    inertia_.resize(n * dim);
+    inertia_.resize(acceleration_.size());
     mass_.multiply_columns(acceleration_, inertia_, dim);
     model_.space->nodes().add(inertia_.data(), dim);
   }
   for (auto& r : model_.reactions) r.setZero();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!model_.space->nodes().owns(static_cast<int>(i))) continue;
-    for (std::size_t d = 0; d < dim; ++d) {
-      const std::size_t k = i * dim + d;
-      if (!model_.constraints.fixed[k]) continue;
-      const double ma = consistent_ ? inertia_[k] : sums_[i * sums_stride<dim>] * acceleration_[k];
-      model_.reactions[static_cast<std::size_t>(model_.constraints.condition[k])][static_cast<int>(d)] +=
-          ma - right_side_[k];
-    }
-  }
+  for (const std::size_t k : model_.constraints.held)
+    if (model_.space->nodes().owns(static_cast<int>(k / dim)))
+      model_
+          .reactions[static_cast<std::size_t>(model_.constraints.condition[k])][static_cast<int>(k % dim)] +=
+          reaction(k);
   for (auto& r : model_.reactions) r = Session::sum(r);
 }
 
 template <int dim>
-void Explicit<dim>::check_finite() const {
-  double sum = 0.0;
-  for (const double m : motion_) sum += m * m;
+void Explicit<dim>::check_finite(double sum) const {
   if (!std::isfinite(Session::sum(sum)))
     run_error(
         "step {} at t = {:.6g} s: grid velocities are not finite: the step is longer than the stable one, or "
@@ -265,18 +212,20 @@ template <int dim>
 void Explicit<dim>::add_work(double dt) {
   const Vec<dim> gravity = model_.gravity(model_.time);
   if (gravity.isZero() && loads_.empty() && !model_.constraints.any) return;
+  const auto& nodes = model_.space->nodes();
+  const auto end_velocity = [&](std::size_t k) { return motion_[k / dim * motion_stride<dim> + k % dim]; };
   double work = 0.0;
-  for (std::size_t i = 0; i < sums_.size() / sums_stride<dim>; ++i) {
-    if (!model_.space->nodes().owns(static_cast<int>(i))) continue;
-    for (std::size_t d = 0; d < dim; ++d) {
-      double f = sums_[i * sums_stride<dim>] * gravity[static_cast<int>(d)];
-      if (!loads_.empty()) f += loads_[i * dim + d];
-      const std::size_t k = i * dim + d;
-      if (model_.constraints.any && model_.constraints.fixed[k])
-        f += (consistent_ ? inertia_[k] : sums_[i * sums_stride<dim>] * acceleration_[k]) - right_side_[k];
-      work += dt * f * motion_[i * motion_stride<dim> + d];
+  for (const std::size_t k : model_.constraints.held)
+    if (nodes.owns(static_cast<int>(k / dim))) work += dt * reaction(k) * end_velocity(k);
+  if (!gravity.isZero() || !loads_.empty())
+    for (std::size_t i = 0; i < sums_.size() / sums_stride<dim>; ++i) {
+      if (!nodes.owns(static_cast<int>(i))) continue;
+      for (std::size_t d = 0; d < dim; ++d) {
+        double f = sums_[i * sums_stride<dim>] * gravity[static_cast<int>(d)];
+        if (!loads_.empty()) f += loads_[i * dim + d];
+        work += dt * f * end_velocity(i * dim + d);
+      }
     }
-  }
   model_.external_work += Session::sum(work);
 }
 
@@ -284,23 +233,6 @@ template <int dim>
 void Explicit<dim>::points(const PointUpdate& update) {
   points_changed_ = true;
   for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
-}
-
-/// The second map: velocity of the points just found, by the functions and the mass of this step (de Koster
-/// et al. 2021; thesis, eq. 2.37).
-template <int dim>
-void Explicit<dim>::project_velocity(double dt) {
-  const auto timer = model_.timers.start(1);
-  gather(Gather::inertia);
-  // The solve starts from the velocity just found, not from an array that a resumed run would not have.
-  strain_velocity_.resize(velocity_.size());
-  for (std::size_t k = 0; k < velocity_.size(); ++k)
-    strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
-  solve_velocity(model_.time + dt, strain_velocity_);
-  if (options_.stress_update != StressUpdate::projected) return;
-  velocity_ = strain_velocity_;
-  for (std::size_t i = 0; i < velocity_.size() / dim; ++i)
-    for (std::size_t d = 0; d < dim; ++d) motion_[i * motion_stride<dim> + d] = strain_velocity_[i * dim + d];
 }
 
 template <int dim>
@@ -317,6 +249,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     const auto timer = model_.timers.start(0);
     model_.settle();
   }
+  if (!walls_.empty()) find_walls();
   {
     const auto timer = model_.timers.start(1);
     gather(scheme == StressUpdate::usf ? Gather::inertia : Gather::both);
@@ -332,19 +265,17 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   {
     const auto timer = model_.timers.start(3);
-    const auto n = static_cast<std::size_t>(model_.space->n_functions()) * dim;
-    // The projected step needs no velocity at its start but for what asks for one; the last projection is at
-    // hand.
-    if (scheme != StressUpdate::projected || record || pic || options_.pic_fraction > 0 ||
-        options_.damping > 0 || velocity_.size() != n)
+    if (needs_start_velocity(record != nullptr))
       solve_velocity(model_.time, velocity_);
-    else
+    else if (consistent_)
       prescribe(model_.time, velocity_);
   }
   if (scheme == StressUpdate::usf) {
     PointUpdate strain = update;
+    strain_velocity_ = velocity_;
+    if (!walls_.empty()) correct_strain_velocity(true);
     // Mass and forces of a step share their functions, so domains wait for the end of the step.
-    strain.strain = true, strain.strain_velocity = velocity_, strain.domains = false;
+    strain.strain = true, strain.strain_velocity = strain_velocity_, strain.domains = false;
     {
       const auto timer = model_.timers.start(4);
       points(strain);
@@ -354,25 +285,31 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   {
     const auto timer = model_.timers.start(3);
-    solve_acceleration(dt);
-    set_motion(dt);
-    check_finite();
+    consistent_ ? solve_acceleration(dt) : advance_lumped(dt);
+  }
+  if (!walls_.empty()) correct_acceleration(dt);
+  {
+    const auto timer = model_.timers.start(3);
+    if (consistent_ || !walls_.empty()) set_motion(dt);
+    find_reactions();
     add_work(dt);
   }
+  if (!walls_.empty()) record_walls();
   if (record) record_energy(*record);
+  points_changed_ = true;  // what loads mark on the bodies moves first
+  model_.move_loads(motion_, motion_stride<dim>, dt);
   update.motion = motion_;
   update.velocity = true;
-  const bool second_map = scheme == StressUpdate::musl || scheme == StressUpdate::projected;
-  if (second_map) {
+  if (scheme == StressUpdate::musl || scheme == StressUpdate::projected) {
     {
       const auto timer = model_.timers.start(4);
       points(update);
     }
-    project_velocity(dt);
+    map_again(dt);
     update.velocity = false, update.strain_velocity = strain_velocity_;
+  } else if (scheme == StressUpdate::usl && !walls_.empty() && !model_.space->domains()) {
+    calm_light_functions(update);
   }
-  points_changed_ |= !model_.tractions.empty();
-  for (auto& traction : model_.tractions) traction.move(*model_.space, motion_, motion_stride<dim>, dt);
   update.move = true;
   update.strain = scheme != StressUpdate::usf;
   {
@@ -380,6 +317,10 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
     points(update);
     if (scheme == StressUpdate::usf)
       for (auto& body : model_.bodies) follow_stretch(body);
+  }
+  if (!walls_.empty()) {
+    const auto timer = model_.timers.start(5);
+    walls_.correct_points(model_.bodies);
   }
   model_.time += dt;
   ++model_.step;

@@ -3,11 +3,18 @@
 #include "analysis/model.h"
 #include "analysis/options.h"
 #include "analysis/record.h"
+#include "boundary/wall_contact.h"
 #include "stabilise/ghost.h"
 #include "stabilise/mass_equation.h"
 #include "transfer/explicit_transfer.h"
 
 namespace wisp {
+
+/// What local non-viscous damping (Cundall 1987) takes from an out-of-balance force: a share of it, against
+/// the velocity.
+inline double damped(double share, double force, double velocity) {
+  return share * std::abs(force) * (velocity > 0 ? 1.0 : velocity < 0 ? -1.0 : 0.0);
+}
 
 /// One explicit stage: owns the order of the operations of a step, which are also the names of its timers.
 template <int dim>
@@ -32,6 +39,10 @@ class Explicit {
   /// last step.
   std::span<const double> start_velocity() const { return velocity_; }
   const BlockMatrix& mass() const { return mass_; }
+  /// Mean over all solves with the consistent mass so far, 0 without any.
+  double iterations_per_solve() const {
+    return solves_ > 0 ? static_cast<double>(iterations_) / static_cast<double>(solves_) : 0.0;
+  }
   /// Warm starts that a resumed run needs for the same bits.
   std::vector<double>& warm_acceleration() { return acceleration_; }
   std::vector<double>& warm_velocity() { return velocity_; }
@@ -41,17 +52,29 @@ class Explicit {
   void renew_solver();
 
  private:
+  // The mass, explicit_mass.cpp: assemble_mass, solves, map_again.
   void gather(Gather what, const FollowedMotion& followed = {});
   void assemble_mass();
-  void prescribe(double t, std::vector<double>& velocity);
+  bool needs_start_velocity(bool recorded) const;
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
-  void check_finite() const;
+  void advance_lumped(double dt);
+  void prescribe(double t, std::vector<double>& velocity);
+  double reaction(std::size_t k) const;
+  void find_reactions();
+  void check_finite(double sum) const;
   void record_energy(EnergyRecord& record) const;
   void add_work(double dt);
   void points(const PointUpdate& update);
-  void project_velocity(double dt);
+  void map_again(double dt);
+  // Walls, explicit_walls.cpp: their hooks in the order of a step.
+  StepMass step_mass();
+  void find_walls();
+  void correct_strain_velocity(bool alone);
+  void correct_acceleration(double dt);
+  void record_walls();
+  void calm_light_functions(PointUpdate& update);
 
   Model<dim>& model_;
   ExplicitOptions options_;
@@ -59,11 +82,13 @@ class Explicit {
   double dt_ = 0.0;  // of the running step
   bool points_changed_ = false;
   // Arrays over functions; see explicit_transfer.h for the records.
-  std::vector<double> sums_, velocity_, strain_velocity_, acceleration_, motion_, loads_, right_side_,
-      inertia_;
+  RecordArray sums_, motion_;
+  std::vector<double> velocity_, strain_velocity_, acceleration_, loads_, right_side_, inertia_;
   BlockMatrix mass_{1}, ghost_mass_{1};
   ActiveCells mass_cells_;  // for which their pattern was made
   MassEquation equation_;
+  std::int64_t solves_ = 0, iterations_ = 0;
+  WallContact<dim> walls_;
 };
 
 }  // namespace wisp

@@ -42,9 +42,7 @@ Implicit<dim>::Implicit(Model<dim>& model, const QuasiStaticOptions& o)
       newton_(newton_options(o)),
       solver_(model.options.solver) {
   solver_.set_traits({dim, false, {}});
-  for (const char* name :
-       {"1 locate, stencils", "2 ghost matrix", "3a residual", "3b tangent", "3c solve", "4 move, commit"})
-    model_.timers.part(name);
+  prepare();
 }
 
 template <int dim>
@@ -61,9 +59,7 @@ Implicit<dim>::Implicit(Model<dim>& model, const ImplicitDynamicOptions& o)
   for (auto& body : model_.bodies)
     if (body.points.acceleration.empty())
       body.points.acceleration.assign(body.points.position.size(), Vec<dim>::Zero());
-  for (const char* name :
-       {"1 locate, stencils", "2 ghost matrix", "3a residual", "3b tangent", "3c solve", "4 move, commit"})
-    model_.timers.part(name);
+  prepare();
 }
 
 template <int dim>
@@ -91,17 +87,22 @@ void Implicit<dim>::set_up(double dt) {
     external_force(model_.time + dt, external_);
     external_force(model_.time, start_external_);
   }
+  if (walls_) start_walls(cells, dt);
   const auto timer = model_.timers.start("2 ghost matrix");
-  const auto& options = model_.options.stabilisation;
+  const auto& options = ghost_options_;
   std::vector<GhostFacet> facets;
   if (options)
     facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), options->elements);
   ghost_.begin_pattern(space.n_functions());
   add_point_pattern(space, model_.bodies, ghost_);
   add_ghost_pattern(space, facets, ghost_);
+  if (walls_)
+    for_each<Wall, dim>(model_.boundaries,
+                        [&](const Wall<dim>& wall, std::size_t) { wall.add_pattern(ghost_); });
   ghost_.end_pattern();
   if (options) add_ghost(space, facets, *options, GhostMatrix::stiffness, ghost_);
   stiffness_.share_pattern(ghost_);
+  if (walls_) assemble_walls();
   if (newmark_) {
     mass_.share_pattern(ghost_);
     add_consistent_mass(space, model_.bodies, mass_);
@@ -232,10 +233,9 @@ double Implicit<dim>::residual(std::span<const double> u, double dt) {
   space.nodes().add_update(force_.data(), dim);
   residual_.resize(n * dim);
   std::vector<double> action(n * dim);
-  for (std::size_t k = 0; k < residual_.size(); ++k) {
-    action[k] = external_[k] + reaction_[k];
-    residual_[k] = action[k] - force_[k];
-  }
+  for (std::size_t k = 0; k < residual_.size(); ++k) action[k] = external_[k] + reaction_[k];
+  if (walls_) add_walls(u, action);
+  for (std::size_t k = 0; k < residual_.size(); ++k) residual_[k] = action[k] - force_[k];
   ++evaluations_;
   if (Session::sum(inverted) > 0) return std::numeric_limits<double>::quiet_NaN();
   const double r = std::sqrt(squared(space.nodes(), residual_, dim));
@@ -255,6 +255,7 @@ std::string Implicit<dim>::correct(std::span<double> du, std::span<const double>
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       add_stiffness(stencils_[b], model_.bodies[b], u, dt, stiffness_);
     stiffness_.add_matrix(1.0, ghost_);
+    if (walls_) stiffness_.add_matrix(1.0, wall_matrix_);
     if (newmark_) stiffness_.add_matrix(1.0 / (newmark_->beta * dt * dt), mass_);
   }
   const auto timer = model_.timers.start("3c solve");
@@ -304,6 +305,7 @@ template <int dim>
 void Implicit<dim>::finish(std::span<const double> u, double dt) {
   const auto timer = model_.timers.start("4 move, commit");
   const auto& space = *model_.space;
+  displacement_.assign(u.begin(), u.end());
   double work = 0.0;
   for (auto& r : model_.reactions) r.setZero();
   for (int i = 0; i < space.n_functions(); ++i) {
@@ -319,7 +321,8 @@ void Implicit<dim>::finish(std::span<const double> u, double dt) {
   model_.external_work += Session::sum(work);
   for (auto& r : model_.reactions) r = Session::sum(r);
   points_changed_ = true;
-  for (auto& traction : model_.tractions) traction.move(space, u, dim, 1.0);
+  if (walls_) finish_walls(u, dt);
+  model_.move_loads(u, dim, 1.0);
   if (newmark_) update_velocities(u, dt);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) commit(stencils_[b], model_.bodies[b], u);
   model_.time += dt;

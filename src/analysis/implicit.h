@@ -40,17 +40,24 @@ class Implicit {
   /// The tangent of the last Newton iteration with Ghost, over all local functions, and its free unknowns.
   const BlockMatrix& stiffness() const { return stiffness_; }
   const DofMap& unknowns() const { return dofs_; }
+  /// Displacement (m) of the local functions over the last step, n_functions x dim.
+  const std::vector<double>& displacement() const { return displacement_; }
 
  private:
   struct Newmark {
     double beta, gamma;
   };
 
+  void prepare();
   NewtonReport attempt(double dt);
   void set_up(double dt);
   void number_unknowns();
   void external_force(double t, std::vector<double>& force) const;
   void start_inertia(double dt);
+  void start_walls(const ActiveCells& cells, double dt);
+  void assemble_walls();
+  void add_walls(std::span<const double> u, std::vector<double>& action);
+  void finish_walls(std::span<const double> u, double dt);
   double residual(std::span<const double> u, double dt);
   std::string correct(std::span<double> du, std::span<const double> u, double dt);
   void finish(std::span<const double> u, double dt);
@@ -71,12 +78,14 @@ class Implicit {
   std::vector<StoredStencils<dim>> stencils_;
   std::vector<char> active_;
   DofMap dofs_;
-  BlockMatrix ghost_{1}, mass_{1}, stiffness_{dim};
+  std::optional<GhostOptions> ghost_options_;
+  bool walls_ = false;
+  BlockMatrix ghost_{1}, mass_{1}, stiffness_{dim}, wall_matrix_{dim};
   SystemMatrix system_;
   LinearSolver solver_;
   // n_functions x dim each
   std::vector<double> external_, start_external_, force_, reaction_, residual_, prescribed_, velocity_,
-      acceleration_;
+      acceleration_, wall_force_, wall_action_, displacement_;
 };
 
 }  // namespace wisp

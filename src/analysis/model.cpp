@@ -33,11 +33,12 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
   else
     sample_on_grid();
   keep_owned();
-  for (const auto& o : options.boundaries) boundaries.push_back(make_boundary<dim>(o, *space));
+  for (const auto& o : options.boundaries)
+    boundaries.push_back(make_boundary<dim>(o, *space, options.folder));
   constraints = constraints_of(boundaries, space->n_functions());
-  for (const auto& o : options.loads) loads.emplace_back(o, bodies);
-  for (const auto& o : options.tractions) tractions.emplace_back(o, bodies, *space);
+  for (const auto& o : options.loads) loads.push_back(make_load<dim>(o, bodies, *space));
   reactions.assign(boundaries.size(), Vec<dim>::Zero());
+  moments.assign(boundaries.size(), Moment<dim>::Zero());
   settle();
 }
 
@@ -112,8 +113,8 @@ Vec<dim> Model<dim>::gravity(double t) const {
 
 template <int dim>
 void Model<dim>::add_loads(double t, std::span<double> force) const {
-  for (const auto& load : loads) load.add_force(*space, bodies, t, force);
-  for (const auto& traction : tractions) traction.add_force(*space, t, force);
+  for (const auto& load : loads)
+    std::visit([&](const auto& l) { l.add_force(*space, bodies, t, force); }, load);
   if (!body_acceleration) return;
   std::visit(
       [&](const auto& basis) {
@@ -133,6 +134,17 @@ void Model<dim>::add_loads(double t, std::span<double> force) const {
 }
 
 template <int dim>
+void Model<dim>::move_loads(std::span<const double> field, int stride, double factor) {
+  for (auto& load : loads)
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires { l.move(*space, field, stride, factor); })
+            l.move(*space, field, stride, factor);
+        },
+        load);
+}
+
+template <int dim>
 std::int64_t Model<dim>::n_points() const {
   std::int64_t n = 0;
   for (const auto& body : bodies) n += body.points.size();
@@ -142,23 +154,31 @@ std::int64_t Model<dim>::n_points() const {
 template <int dim>
 void Model<dim>::settle() {
   Eigen::Matrix<int, 2, 1> found(0, 0);
-  std::vector<Location> locations;
+  disorder_.clear();
   for (auto& body : bodies) {
-    locations.push_back(find_cells(body.points));
-    found += Eigen::Matrix<int, 2, 1>(locations.back().outside, locations.back().elsewhere);
+    const Location location = find_cells(body.points);
+    disorder_.push_back(location.disorder);
+    found += Eigen::Matrix<int, 2, 1>(location.outside, location.elsewhere);
   }
   if (Session::size() > 1) found = Session::sum(found);
   if (found[0] > 0) remove_outside(static_cast<std::size_t>(found[0]));
   if (found[1] > 0) migrate();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const bool moved = found[0] > 0 || found[1] > 0;
-    if (moved || locations[b].disorder > tolerated_disorder * bodies[b].points.size())
-      reorder(bodies[b], space->n_cells());
+    if (moved || disorder_[b] > tolerated_disorder * bodies[b].points.size())
+      reorder(bodies[b], space->n_cells()), ++reorderings;
   }
   if (space->domains()) choose_width();
-  if (tractions.empty()) return;
-  const ActiveCells active = active_cells(*space, bodies);
-  for (auto& traction : tractions) traction.settle(*space, active);
+  std::optional<ActiveCells> active;
+  for (auto& load : loads)
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires(const ActiveCells& cells) { l.settle(*space, cells); }) {
+            if (!active) active = active_cells(*space, bodies);
+            l.settle(*space, *active);
+          }
+        },
+        load);
 }
 
 template <int dim>
@@ -178,8 +198,10 @@ void Model<dim>::remove_outside(std::size_t outside) {
     }
     if (options.leaving() == Leaving::remove) remove(body, gone);
   }
-  removed += static_cast<std::int64_t>(outside);
-  if (options.leaving() == Leaving::remove) return;
+  if (options.leaving() == Leaving::remove) {
+    removed += static_cast<std::int64_t>(outside);
+    return;
+  }
   std::string error;
   if (!examples.empty())
     error = fmt::format(

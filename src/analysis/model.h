@@ -8,7 +8,6 @@
 
 #include "basis/space.h"
 #include "boundary/list.h"
-#include "boundary/loads.h"
 #include "core/timers.h"
 #include "grid/triangulation_options.h"
 #include "linear/solver.h"
@@ -26,8 +25,7 @@ struct ModelOptions {
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
   std::vector<AnyBoundaryOptions> boundaries;
-  std::vector<PointLoadOptions> loads;
-  std::vector<TractionOptions> tractions;
+  std::vector<AnyLoadOptions> loads;
   std::optional<GravityOptions> gravity;
   std::optional<GhostOptions> stabilisation;
   SolverOptions solver;
@@ -50,23 +48,26 @@ struct Model {
   std::vector<Body<dim>> bodies;
   std::vector<AnyBoundary<dim>> boundaries;
   Constraints<dim> constraints;
-  std::vector<PointLoad<dim>> loads;
-  std::vector<Traction<dim>> tractions;
+  std::vector<AnyLoad<dim>> loads;
 
   /// Body force per mass (m/s2) besides gravity at a point's initial position (m) and a time (s); not in case
   /// files. Forces that make a chosen motion the exact solution come in here.
   std::function<Vec<dim>(const Vec<dim>& start, double t)> body_acceleration;
 
-  double time = 0.0;                ///< s
-  std::int64_t step = 0;            ///< finished steps, over all stages
-  std::int64_t removed = 0;         ///< points removed because they left the grid, all ranks
-  double external_work = 0.0;       ///< J, of body forces, loads and prescribed motion, all ranks
-  std::vector<Vec<dim>> reactions;  ///< N, on the bodies, one a boundary, all ranks, of the last step
+  double time = 0.0;                 ///< s
+  std::int64_t step = 0;             ///< finished steps, over all stages
+  std::int64_t reorderings = 0;      ///< times the points of a body were put in order, this rank
+  std::int64_t removed = 0;          ///< points removed because they left the grid, all ranks
+  double external_work = 0.0;        ///< J, of body forces, loads and prescribed motion, all ranks
+  std::vector<Vec<dim>> reactions;   ///< N, on the bodies, one a boundary, all ranks, of the last step
+  std::vector<Moment<dim>> moments;  ///< of the reactions of walls, about Wall::motion().centre(t), likewise
   Timers timers;
 
   Vec<dim> gravity(double t) const;
-  bool has_loads() const { return !loads.empty() || !tractions.empty() || body_acceleration; }
-  /// Adds point loads, tractions and body_acceleration at time t to `force` (n_functions x dim), this rank's
+  bool has_loads() const { return !loads.empty() || body_acceleration; }
+  /// Moves what of the loads moves with the bodies, see boundary/list.h.
+  void move_loads(std::span<const double> field, int stride, double factor);
+  /// Adds loads and body_acceleration at time t to `force` (n_functions x dim), this rank's
   /// share.
   void add_loads(double t, std::span<double> force) const;
   std::int64_t n_points() const;  ///< all ranks
@@ -92,6 +93,8 @@ struct Model {
   void migrate();
   void choose_width();
   std::string oversized_domain() const;
+
+  std::vector<int> disorder_;  // of every body; kept, so that steps allocate nothing
 };
 
 }  // namespace wisp

@@ -14,6 +14,7 @@
 
 #include "analysis/explicit.h"
 #include "analysis/implicit.h"
+#include "app/bench_bare.h"
 #include "core/error.h"
 
 namespace wisp {
@@ -103,78 +104,90 @@ ExplicitOptions explicit_options(Mass mass) {
   return o;
 }
 
-struct Measured {
-  int points = 0;
-  double seconds = 0.0;  ///< a step
-  std::optional<double> peak;
-  int steps = 0, reorderings = 0;
-  std::string parts;  ///< ns a point and step of every part
-  double speed() const { return points / seconds; }
+/// What an explicit run has cost so far. Bursts are short, so that the edge of the block moves by less than
+/// half a cell in all and no function keeps hardly any mass; each has several steps, so that reorderings are
+/// part of it.
+template <int dim>
+class ExplicitRun {
+ public:
+  static constexpr int burst = 5, bursts = 5;
+
+  ExplicitRun(const ModelOptions& options, Mass mass)
+      : model_(options),
+        analysis_(model_, explicit_options(mass)),
+        dt_(analysis_.time_step(std::numeric_limits<double>::max())) {
+    // Warms up; what the first reordering needs for a moment counts as memory.
+    for (int k = 0; k < 3 || (model_.reorderings == 0 && k < 10); ++k) analysis_.step(dt_);
+    before_ = model_.timers.parts();
+    reorderings_ = -model_.reorderings;
+  }
+
+  void run(int steps) {
+    const double start = processor_seconds();
+    for (int k = 0; k < steps; ++k) analysis_.step(dt_);
+    best_ = std::min(best_, (processor_seconds() - start) / steps);
+    steps_ += steps;
+  }
+
+  int points() const { return static_cast<int>(model_.n_points()); }
+  double seconds() const { return best_; }  ///< a step, in the best burst
+  std::int64_t reorderings() const { return reorderings_ + model_.reorderings; }
+  int steps() const { return steps_; }
+  const Explicit<dim>& analysis() const { return analysis_; }
+  /// ns a point and step of every part, over all bursts.
+  std::string parts() const {
+    std::string text;
+    for (std::size_t k = 0; k < before_.size(); ++k)
+      text += fmt::format("{}{:.1f}", k ? " + " : "",
+                          1e9 * (model_.timers.parts()[k].seconds - before_[k].seconds) / points() / steps_);
+    return text;
+  }
+
+ private:
+  Model<dim> model_;
+  Explicit<dim> analysis_;
+  double dt_, best_ = std::numeric_limits<double>::max();
+  int steps_ = 0;
+  std::int64_t reorderings_ = 0;
+  std::vector<Timers::Part> before_;
 };
 
-/// Best of `repeats` runs of `steps` steps, after warming up.
+/// Engine and bare kernel in turns, so that both see the same machine; best of several bursts for both.
+/// Returns the peak memory of the engine (bytes) and its points.
 template <int dim>
-Measured measure(const ModelOptions& options, Mass mass, int steps, int repeats) {
-  Measured result;
+std::pair<std::optional<double>, int> compare(int points, bool gimp) {
+  const double target = gimp ? target_gimp : target_linear;
   const bool peak = PeakMemory::forget();
-  Model<dim> model(options);
-  Explicit<dim> analysis(model, explicit_options(mass));
-  const double dt = analysis.time_step(std::numeric_limits<double>::max());
-  for (int k = 0; k < 3; ++k) analysis.step(dt);
-  result.points = static_cast<int>(model.n_points());
-  result.seconds = std::numeric_limits<double>::max();
-  const auto before = model.timers.parts();
-  auto id = model.bodies.front().points.id;
-  for (int r = 0; r < repeats; ++r) {
-    double seconds = 0.0;
-    for (int k = 0; k < steps; ++k) {
-      const double start = processor_seconds();
-      analysis.step(dt);
-      seconds += processor_seconds() - start;
-      const auto& now = model.bodies.front().points.id;
-      if (now != id) ++result.reorderings, id = now;
-    }
-    result.seconds = std::min(result.seconds, seconds / steps);
+  ExplicitRun<dim> engine(block<dim>(points, gimp), Mass::lumped);
+  const std::optional<double> memory = peak ? PeakMemory::bytes() : std::nullopt;
+  BareKernel<dim> bare(points);
+  double best = std::numeric_limits<double>::max();
+  for (int k = 0; k < engine.bursts; ++k) {
+    best = std::min(best, bare.seconds_per_step(2 * engine.burst));
+    engine.run(engine.burst);
   }
-  result.steps = steps * repeats;
-  if (peak) result.peak = PeakMemory::bytes();
-  const double point_steps = static_cast<double>(result.points) * steps * repeats;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    const auto& part = model.timers.parts()[k];
-    result.parts +=
-        fmt::format("{}{:.1f}", k ? " + " : "", 1e9 * (part.seconds - before[k].seconds) / point_steps);
-  }
-  return result;
+  const double own = engine.points() / engine.seconds(), yardstick = bare.size() / best,
+               ratio = own / yardstick;
+  print(
+      "  {}D {:<6} {:>9} points  {:>5.1f} M point-steps/s, bare {:>5.1f}: {:>3.0f} %, target >= {:.0f} %: {} "
+      "  "
+      "({} ns a point in steps 1 to 5-7; {} reorderings in {} steps)\n",
+      dim, gimp ? "GIMP" : "linear", engine.points(), 1e-6 * own, 1e-6 * yardstick, 100 * ratio, 100 * target,
+      verdict(ratio >= target), engine.parts(), engine.reorderings(), engine.steps());
+  return {memory, engine.points()};
 }
-
-/// Few steps: the edge of the block moves by less than half a cell in all, so that no function keeps hardly
-/// any mass.
-constexpr int explicit_steps = 5;
 
 /// The explicit engine at both sizes with one basis.
 template <int dim>
-void bench_explicit(int points, bool gimp, const double bare[2]) {
-  const int sizes[2] = {points / 10, points};
-  const double target = gimp ? target_gimp : target_linear;
-  std::optional<double> peak[2];
-  int count[2];
-  for (int k = 0; k < 2; ++k) {
-    const Measured m = measure<dim>(block<dim>(sizes[k], gimp), Mass::lumped, explicit_steps, 4);
-    const double ratio = m.speed() / bare[k];
-    print(
-        "  {}D {:<6} {:>9} points  {:>6.2f} M point-steps/s  {:>3.0f} % of bare, target >= {:.0f} %: {}   "
-        "({} ns a "
-        "point in steps 1 to 5-7; {} reorderings in {} steps)\n",
-        dim, gimp ? "GIMP" : "linear", m.points, 1e-6 * m.speed(), 100 * ratio, 100 * target,
-        verdict(ratio >= target), m.parts, m.reorderings, m.steps);
-    peak[k] = m.peak, count[k] = m.points;
-  }
-  if (!peak[0] || !peak[1]) {
+void bench_explicit(int points, bool gimp) {
+  const auto [small, n_small] = compare<dim>(points / 10, gimp);
+  const auto [large, n_large] = compare<dim>(points, gimp);
+  if (!small || !large) {
     print("  {}D {:<6} memory: not measured, this system does not let a process reset its peak\n", dim,
           gimp ? "GIMP" : "linear");
     return;
   }
-  const double bytes = (*peak[1] - *peak[0]) / (count[1] - count[0]);
+  const double bytes = (*large - *small) / (n_large - n_small);
   print("  {}D {:<6} memory {:.0f} bytes a point, target <= {:.0f}: {}\n", dim, gimp ? "GIMP" : "linear",
         bytes, target_bytes<dim>, verdict(bytes <= target_bytes<dim>));
 }
@@ -237,20 +250,23 @@ void bench_newton() {
 template <int dim>
 void bench_consistent(int points, bool gimp) {
   ModelOptions o = block<dim>(points, gimp);
-  const Measured lumped = measure<dim>(o, Mass::lumped, explicit_steps, 3);
+  ExplicitRun<dim> lumped(o, Mass::lumped);
   o.stabilisation = GhostOptions{};
-  const Measured consistent = measure<dim>(o, Mass::consistent, 3, 3);
-  const double ratio = consistent.seconds / lumped.seconds;
+  ExplicitRun<dim> consistent(o, Mass::consistent);
+  for (int k = 0; k < 3; ++k) {
+    lumped.run(lumped.burst);
+    consistent.run(3);
+  }
+  const double ratio = consistent.seconds() / lumped.seconds();
   print(
-      "  {}D {:<6} {:>9} points  {:>5.1f} times the lumped step, target < {:.0f}: {}   ({} ns a point in "
-      "steps 1 to "
-      "5-7)\n",
-      dim, gimp ? "GIMP" : "linear", consistent.points, ratio, target_consistent,
-      verdict(ratio < target_consistent), consistent.parts);
+      "  {}D {:<6} {:>9} points  {:>5.1f} times the lumped step, target < {:.0f}: {}   ({:.1f} iterations a "
+      "solve, 2 solves a step; {} ns a point in steps 1 to 5-7)\n",
+      dim, gimp ? "GIMP" : "linear", consistent.points(), ratio, target_consistent,
+      verdict(ratio < target_consistent), consistent.analysis().iterations_per_solve(), consistent.parts());
 }
 
 /// Powell-Sabin splines against linear functions, on the same triangles and points, and on the cells of a
-/// structured grid with as many points.
+/// structured grid with as many points; in turns, best of several bursts.
 void bench_splines(int points) {
   const int blocks = std::max(4, static_cast<int>(std::lround(std::sqrt(points) / 4)));
   const auto on_triangles = [&](const AnyBasisOptions& basis) {
@@ -259,17 +275,21 @@ void bench_splines(int points) {
     grid.lower = o.grid.lower, grid.upper = o.grid.upper, grid.cells = o.grid.cells;
     o.triangulation = grid;
     o.basis = basis;
-    return measure<2>(o, Mass::lumped, explicit_steps, 4);
+    return o;
   };
-  const Measured linear = on_triangles(LinearOptions{}), spline = on_triangles(PowellSabinOptions{});
-  const Measured cells = measure<2>(block<2>(linear.points, false), Mass::lumped, explicit_steps, 4);
-  const double ratio = linear.speed() / spline.speed();
+  ExplicitRun<2> linear(on_triangles(LinearOptions{}), Mass::lumped);
+  ExplicitRun<2> spline(on_triangles(PowellSabinOptions{}), Mass::lumped);
+  ExplicitRun<2> cells(block<2>(linear.points(), false), Mass::lumped);
+  for (int k = 0; k < linear.bursts; ++k)
+    for (auto* run : {&linear, &spline, &cells}) run->run(run->burst);
+  const auto cost = [](const ExplicitRun<2>& run) { return run.seconds() / run.points(); };
+  const double ratio = cost(spline) / cost(linear);
   print(
       "  {:>9} points  {:>6.2f} M point-steps/s, {:.2f} times the linear step on triangles, target <= "
       "{:.0f}: {}   "
       "({:.2f} times that on cells, {:.2f} for linear on triangles; {} ns a point in steps 1 to 5-7)\n",
-      spline.points, 1e-6 * spline.speed(), ratio, target_splines, verdict(ratio <= target_splines),
-      cells.speed() / spline.speed(), cells.speed() / linear.speed(), spline.parts);
+      spline.points(), 1e-6 / cost(spline), ratio, target_splines, verdict(ratio <= target_splines),
+      cost(spline) / cost(cells), cost(linear) / cost(cells), spline.parts());
 }
 
 }  // namespace
@@ -280,16 +300,12 @@ void bench(int points) {
     input_error("bench needs --points of at least 10000 (the small case has a tenth), found {}", points);
   print("Times are processor times, best of several runs.\n\nYardsticks\n");
   print("  triad bandwidth {:.1f} GB/s\n", 1e-9 * triad_bandwidth());
-  const double bare2[2] = {bare_speed<2>(points / 10), bare_speed<2>(points)};
-  const double bare3[2] = {bare_speed<3>(points / 10), bare_speed<3>(points)};
-  for (int k = 0; k < 2; ++k)
-    print("  bare kernel, {:>9} points: 2D {:.1f}, 3D {:.1f} M point-steps/s\n", k ? points : points / 10,
-          1e-6 * bare2[k], 1e-6 * bare3[k]);
+  print("  bare kernel: beside every line below, measured in turns with the engine\n");
   print("\nExplicit, lumped, linear elastic, with boundaries and reordering\n");
-  bench_explicit<2>(points, false, bare2);
-  bench_explicit<3>(points, false, bare3);
-  bench_explicit<2>(points, true, bare2);
-  bench_explicit<3>(points, true, bare3);
+  bench_explicit<2>(points, false);
+  bench_explicit<3>(points, false);
+  bench_explicit<2>(points, true);
+  bench_explicit<3>(points, true);
   print(
       "  (memory: difference of the peaks of resident memory at both sizes over the difference of points; "
       "the peak\n"

@@ -15,10 +15,4 @@ inline double processor_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Point-steps per second of a bare kernel: a square (cube) of about `points` points in cell order, 2 a cell
-/// and direction, on equal cells; linear functions, lumped mass, stress last, small strain; no boundary, no
-/// displacement, no deformation gradient, no checks. Best of several runs.
-template <int dim>
-double bare_speed(int points);
-
 }  // namespace wisp

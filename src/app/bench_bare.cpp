@@ -1,20 +1,20 @@
-// The yardsticks of `wisp bench`: what the machine can do, and what a kernel can do that does nothing else.
+#include "app/bench_bare.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "app/bench.h"
+#include "core/error.h"
 
 namespace wisp {
 
-namespace {
-
-/// The bare kernel. Stress: 2D xx, yy, xy; 3D xx, yy, zz, xy, yz, zx.
+/// Stress: 2D xx, yy, xy; 3D xx, yy, zz, xy, yz, zx.
 template <int dim>
-class Bare {
+class BareKernel<dim>::Arrays {
  public:
-  explicit Bare(int points) {
+  explicit Arrays(int points) {
     cells_ = std::max(4, static_cast<int>(std::lround(std::pow(points, 1.0 / dim) / 2)));
     nodes_ = cells_ + 3;  // a row of empty cells around
     const int layers = dim == 3 ? cells_ : 1, z_points = dim == 3 ? 2 : 1;
@@ -177,24 +177,28 @@ class Bare {
   std::vector<double> x_, v_, m_, volume_, s_, sums_, motion_;
 };
 
-}  // namespace
+template <int dim>
+BareKernel<dim>::BareKernel(int points) : arrays_(std::make_unique<Arrays>(points)) {
+  for (int k = 0; k < 2; ++k) arrays_->step(dt);
+}
+template <int dim>
+BareKernel<dim>::~BareKernel() = default;
 
 template <int dim>
-double bare_speed(int points) {
-  Bare<dim> bare(points);
-  constexpr double dt = 1e-5;  // a twentieth of what is stable: points stay in their order
-  const int steps = std::max(2, 4000000 / bare.size());
-  for (int k = 0; k < 2; ++k) bare.step(dt);
-  double best = 1e30;
-  for (int repeat = 0; repeat < 5; ++repeat) {
-    const double start = processor_seconds();
-    for (int k = 0; k < steps; ++k) bare.step(dt);
-    best = std::min(best, processor_seconds() - start);
-  }
-  return std::isfinite(bare.checksum()) ? static_cast<double>(bare.size()) * steps / best : 0.0;
+int BareKernel<dim>::size() const {
+  return arrays_->size();
 }
 
-template double bare_speed<2>(int);
-template double bare_speed<3>(int);
+template <int dim>
+double BareKernel<dim>::seconds_per_step(int steps) {
+  const double start = processor_seconds();
+  for (int k = 0; k < steps; ++k) arrays_->step(dt);
+  const double seconds = (processor_seconds() - start) / steps;
+  if (!std::isfinite(arrays_->checksum())) run_error("the bare kernel has computed nonsense");
+  return seconds;
+}
+
+template class BareKernel<2>;
+template class BareKernel<3>;
 
 }  // namespace wisp

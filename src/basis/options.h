@@ -25,7 +25,7 @@ struct LagrangeQuadraticOptions {
   static constexpr std::string_view name = "lagrange-quadratic";
   static constexpr std::string_view summary =
       "Quadratic Lagrange functions on triangles: negative in places, kinked across edges";
-  static constexpr std::string_view source = "de Koster 2018, section 3.3";
+  static constexpr std::string_view source = "de Koster et al. 2021";
   static constexpr auto keys() { return std::tuple{}; }
 };
 

@@ -3,38 +3,13 @@
 #pragma once
 #include <array>
 #include <cstddef>
-#include <cstring>
+#include <limits>
 
+#include "basis/records.h"
 #include "parallel/window.h"
 #include "tensor/tensor.h"
 
 namespace wisp {
-
-/// `n` numbers (a power of two) that belong to one grid function, as one register however wide the machine's
-/// are.
-template <int n>
-struct RecordTypes {
-  using Value __attribute__((vector_size(n * sizeof(double)))) = double;
-};
-template <int n>
-using Record = typename RecordTypes<n>::Value;
-
-/// Records lie in arrays of doubles, which are aligned to doubles only.
-template <int n>
-inline __attribute__((always_inline)) void load_record(const double* from, Record<n>& r) {
-  std::memcpy(&r, from, sizeof r);
-}
-template <int n>
-inline __attribute__((always_inline)) void store_record(const Record<n>& r, double* to) {
-  std::memcpy(to, &r, sizeof r);
-}
-
-/// A record and one for each direction.
-template <int dim, int n>
-struct RecordAndGradient {
-  Record<n> value{};
-  Record<n> gradient[dim]{};
-};
 
 /// Stencil of a tensor-product basis on a structured grid: `width` functions a direction starting at function
 /// `base`. Function (a, b[, c]) has the local index base + a + b stride[1] + c stride[2].
@@ -80,87 +55,153 @@ struct TensorStencil {
     }
   }
 
-  /// Adds phi r.value + sum_d dphi_d r.gradient[d] to the record of every function. Direction by direction,
-  /// so that a function costs two operations and not 1 + dim.
-  template <int n>
-  inline __attribute__((always_inline)) void add_records(const RecordAndGradient<dim, n>& r,
-                                                         double* records) const {
-    constexpr int planes = dim == 3 ? width : 1;
-    for (int c = 0; c < planes; ++c) {
+  /// Whether all points of a cell have the same functions, so that it pays to sum over them first.
+  static constexpr bool one_set_per_cell = width == 2;
+
+  /// Calls f(k, i) for every function: its position in the stencil and its local index.
+  template <class F>
+  inline __attribute__((always_inline)) void for_each_function(F&& f) const {
+    for_short<dim == 3 ? width : 1>([&](int c) __attribute__((always_inline)) {
+      for_short<width>([&](int b) __attribute__((always_inline)) {
+        for_short<width>([&](int a) __attribute__((always_inline)) {
+          f(a + width * (b + width * c), base + a + b * stride[1] + c * stride[2]);
+        });
+      });
+    });
+  }
+
+  /// Calls f(k, i, r), r = phi r.value + sum_d dphi_d r.gradient[d], for every function. Direction by
+  /// direction, so that a function costs two operations and not 1 + dim. Without `with_gradient`, r.gradient
+  /// is not used.
+  template <int n, bool with_gradient, class F>
+  inline __attribute__((always_inline)) void spread(const RecordAndGradient<dim, n>& r, F&& f) const {
+    for_short<dim == 3 ? width : 1>([&](int c) __attribute__((always_inline)) {
       Record<n> plane = r.value, plane_x = r.gradient[0], plane_y = r.gradient[1];
       if constexpr (dim == 3) {
         const double w = value[2][c];
-        plane = w * r.value + derivative[2][c] * r.gradient[2];
-        plane_x *= w, plane_y *= w;
+        plane = w * r.value;
+        if constexpr (with_gradient)
+          plane += derivative[2][c] * r.gradient[2], plane_x = w * plane_x, plane_y = w * plane_y;
       }
-      for (int b = 0; b < width; ++b) {
-        const Record<n> row = value[1][b] * plane + derivative[1][b] * plane_y;
-        const Record<n> row_x = value[1][b] * plane_x;
-        double* const first = records + static_cast<std::ptrdiff_t>(base + b * stride[1] + c * stride[2]) * n;
-        for (int a = 0; a < width; ++a) {
-          double* const out = first + a * n;
-          Record<n> sum;
-          load_record<n>(out, sum);
-          sum = sum + value[0][a] * row + derivative[0][a] * row_x;
-          store_record<n>(sum, out);
-        }
-      }
-    }
+      for_short<width>([&](int b) __attribute__((always_inline)) {
+        Record<n> row = value[1][b] * plane, row_x = plane_x;
+        if constexpr (with_gradient) row += derivative[1][b] * plane_y, row_x = value[1][b] * plane_x;
+        const int first = base + b * stride[1] + c * stride[2];
+        for_short<width>([&](int a) __attribute__((always_inline)) {
+          Record<n> sum = value[0][a] * row;
+          if constexpr (with_gradient) sum += derivative[0][a] * row_x;
+          f(a + width * (b + width * c), first + a, sum);
+        });
+      });
+    });
   }
 
   /// sum phi_i r_i and, with gradients, sum dphi_i r_i of the records r_i of the functions.
   template <int n, bool with_gradient>
   inline __attribute__((always_inline)) RecordAndGradient<dim, n> sum_records(const double* records) const {
-    constexpr int planes = dim == 3 ? width : 1;
     RecordAndGradient<dim, n> sum;
-    for (int c = 0; c < planes; ++c) {
-      RecordAndGradient<2, n> plane;
-      for (int b = 0; b < width; ++b) {
+    for_short<dim == 3 ? width : 1>([&](int c) __attribute__((always_inline)) {
+      Record<n> plane{}, plane_x{}, plane_y{};
+      for_short<width>([&](int b) __attribute__((always_inline)) {
         const double* const first =
             records + static_cast<std::ptrdiff_t>(base + b * stride[1] + c * stride[2]) * n;
         Record<n> row{}, row_x{};
-        for (int a = 0; a < width; ++a) {
+        for_short<width>([&](int a) __attribute__((always_inline)) {
           Record<n> in;
           load_record<n>(first + a * n, in);
           row += value[0][a] * in;
           if constexpr (with_gradient) row_x += derivative[0][a] * in;
-        }
-        plane.value += value[1][b] * row;
-        if constexpr (with_gradient) {
-          plane.gradient[0] += value[1][b] * row_x;
-          plane.gradient[1] += derivative[1][b] * row;
-        }
-      }
+        });
+        plane += value[1][b] * row;
+        if constexpr (with_gradient) plane_x += value[1][b] * row_x, plane_y += derivative[1][b] * row;
+      });
       if constexpr (dim == 2) {
-        sum = plane;
+        sum.value = plane, sum.gradient[0] = plane_x, sum.gradient[1] = plane_y;
       } else {
-        sum.value += value[2][c] * plane.value;
+        sum.value += value[2][c] * plane;
         if constexpr (with_gradient) {
-          sum.gradient[0] += value[2][c] * plane.gradient[0];
-          sum.gradient[1] += value[2][c] * plane.gradient[1];
-          sum.gradient[2] += derivative[2][c] * plane.value;
+          sum.gradient[0] += value[2][c] * plane_x;
+          sum.gradient[1] += value[2][c] * plane_y;
+          sum.gradient[2] += derivative[2][c] * plane;
         }
       }
-    }
+    });
     return sum;
   }
 };
 
-/// Adds phi r.value + sum_d dphi_d r.gradient[d] to the records of the functions of any stencil.
-template <int dim, int n, class Stencil>
-inline __attribute__((always_inline)) void add_to_functions(const Stencil& stencil,
-                                                            const RecordAndGradient<dim, n>& r,
-                                                            double* records) {
-  if constexpr (requires { stencil.add_records(r, records); }) {
-    stencil.add_records(r, records);
+/// Calls f(k, i, r) with r = phi r.value + sum_d dphi_d r.gradient[d] for the functions of any stencil.
+template <int dim, int n, bool with_gradient, class Stencil, class F>
+inline __attribute__((always_inline)) void spread_over_functions(const Stencil& stencil,
+                                                                 const RecordAndGradient<dim, n>& r, F&& f) {
+  if constexpr (requires { stencil.template spread<n, with_gradient>(r, f); }) {
+    stencil.template spread<n, with_gradient>(r, f);
   } else {
-    stencil.for_each([&](int, int i, double phi, const Vec<dim>& dphi) {
+    stencil.for_each([&](int k, int i, double phi, const Vec<dim>& dphi) {
       Record<n> sum = phi * r.value;
-      for (int d = 0; d < dim; ++d) sum += dphi[d] * r.gradient[d];
-      for (int k = 0; k < n; ++k) records[static_cast<std::ptrdiff_t>(i) * n + k] += sum[k];
+      if constexpr (with_gradient)
+        for (int d = 0; d < dim; ++d) sum += dphi[d] * r.gradient[d];
+      f(k, i, sum);
     });
   }
 }
+
+/// Adds what points spread over their functions to the functions' records. Where all points of a cell have
+/// the same functions, the sums of a cell stay in registers until the next cell. Call `finish` at the end.
+template <int dim, int n, class Stencil>
+class RecordSums {
+ public:
+  explicit RecordSums(double* records) : records_(records) {}
+
+  /// Adds phi r.value + sum_d dphi_d r.gradient[d] to the record of every function of the stencil.
+  template <bool with_gradient>
+  inline __attribute__((always_inline)) void add(const Stencil& stencil, const RecordAndGradient<dim, n>& r) {
+    if constexpr (by_cell) {
+      if (stencil.key() != key_) {
+        finish();
+        cell_ = stencil, key_ = stencil.key();
+      }
+    }
+    spread_over_functions<dim, n, with_gradient>(
+        stencil, r, [&](int k, int i, const Record<n>& more) __attribute__((always_inline)) {
+          if constexpr (by_cell)
+            sums_[k] += more;
+          else
+            add_to(i, more);
+        });
+  }
+
+  inline __attribute__((always_inline)) void finish() {
+    if constexpr (by_cell) {
+      if (key_ == none) return;
+      cell_.for_each_function([&](int k, int i) __attribute__((always_inline)) {
+        add_to(i, sums_[k]);
+        sums_[k] = Record<n>{};
+      });
+      key_ = none;
+    }
+  }
+
+ private:
+  static constexpr bool by_cell = [] {
+    if constexpr (requires { Stencil::one_set_per_cell; }) return Stencil::one_set_per_cell;
+    return false;
+  }();
+  static constexpr int none = std::numeric_limits<int>::min();
+
+  inline __attribute__((always_inline)) void add_to(int i, const Record<n>& more) {
+    double* const record = records_ + static_cast<std::ptrdiff_t>(i) * n;
+    Record<n> sum;
+    load_record<n>(record, sum);
+    sum += more;
+    store_record<n>(sum, record);
+  }
+
+  double* const records_;
+  int key_ = none;
+  Stencil cell_{};  // of the sums
+  Record<n> sums_[by_cell ? Stencil::max_functions : 1]{};
+};
 
 /// sum phi_i r_i and, with gradients, sum dphi_i r_i of the records r_i of the functions of any stencil.
 template <int dim, int n, bool with_gradient, class Stencil>
@@ -172,13 +213,36 @@ inline __attribute__((always_inline)) RecordAndGradient<dim, n> sum_of_functions
     RecordAndGradient<dim, n> sum;
     stencil.for_each([&](int, int i, double phi, const Vec<dim>& dphi) {
       Record<n> r;
-      for (int k = 0; k < n; ++k) r[k] = records[static_cast<std::ptrdiff_t>(i) * n + k];
+      load_record<n>(records + static_cast<std::ptrdiff_t>(i) * n, r);
       sum.value += phi * r;
       if constexpr (with_gradient)
         for (int d = 0; d < dim; ++d) sum.gradient[d] += dphi[d] * r;
     });
     return sum;
   }
+}
+
+/// What tabulates the points of a loop one after the other; a basis may have its own `Walk` that remembers
+/// the cell of the last point.
+template <class Basis>
+class PlainWalk {
+ public:
+  explicit PlainWalk(const Basis& basis) : basis_(basis) {}
+  template <class Position>
+  inline __attribute__((always_inline)) auto tabulate(const Position& x, const Position& half_length) {
+    return basis_.tabulate(x, half_length);
+  }
+
+ private:
+  const Basis basis_;
+};
+
+template <class Basis>
+inline __attribute__((always_inline)) auto walk(const Basis& basis) {
+  if constexpr (requires { typename Basis::Walk; })
+    return typename Basis::Walk(basis);
+  else
+    return PlainWalk<Basis>(basis);
 }
 
 /// The dense local numbering of functions on a rank's window of a structured grid, as kernels need it: the

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "basis/trace.h"
+#include "basis/edge_functions.h"
 #include "core/error.h"
 
 namespace wisp {

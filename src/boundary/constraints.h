@@ -10,7 +10,8 @@ template <int dim>
 struct Constraints {
   std::vector<char> fixed;     ///< n_functions x dim flags
   std::vector<int> condition;  ///< n_functions x dim: index of the boundary, -1 where free; the last one wins
-  bool any = false;            ///< also on a rank that holds nothing: it must exchange like the others
+  std::vector<std::size_t> held;  ///< the unknowns k = function * dim + direction whose flag is set
+  bool any = false;               ///< also on a rank that holds nothing: it must exchange like the others
   std::vector<double> motion;  ///< one a boundary: what its unknowns do now, see `set_increments` in list.h
 
   Constraints() = default;
@@ -21,6 +22,7 @@ struct Constraints {
 
   void hold(int function, int direction, std::size_t boundary) {
     const auto k = static_cast<std::size_t>(function * dim + direction);
+    if (!fixed[k]) held.push_back(k);
     fixed[k] = 1, condition[k] = static_cast<int>(boundary);
   }
   /// What a held unknown does now.

@@ -1,4 +1,4 @@
-// Every boundary that a case file can name. A new one is one file and one word here.
+// Every boundary and every load that a case file can name. A new one is one file and one word here.
 //
 // A boundary has a name() and any of these hooks; absent ones cost nothing:
 //     constrain(index, Constraints&)      once: holds unknowns of the grid
@@ -6,7 +6,15 @@
 //     on_edge(direction, side)            holds a whole edge of the grid
 //     edges()                             edges of a triangulation that it holds
 //     holds(direction)                    its reaction has a component there
-//     reaction, moment                    members, if it finds its reactions itself
+//     begin_step, add_pattern, add_stiffness, add_force, finish    implicit steps, see Wall
+//     reaction, moment, work              members, if it finds its reactions itself
+//
+// A load has a name() and
+//     add_force(space, bodies, t, force)  adds this rank's share to an array over functions and directions
+// and may have
+//     settle(space, active)               before a step, when the points have their cells
+//     move(space, field, stride, factor)  after a step, with its field of displacements or velocities
+//     for_each_field(f)                   arrays that checkpoints keep
 #pragma once
 #include <algorithm>
 #include <string>
@@ -15,7 +23,10 @@
 
 #include "basis/facet.h"
 #include "boundary/conforming.h"
+#include "boundary/point_load.h"
+#include "boundary/traction.h"
 #include "boundary/wall.h"
+#include "core/error.h"
 
 namespace wisp {
 
@@ -26,11 +37,39 @@ inline constexpr int default_alternative<AnyBoundaryOptions> = 0;
 template <int dim>
 using AnyBoundary = std::variant<Conforming<dim>, Wall<dim>>;
 
+using AnyLoadOptions = std::variant<PointLoadOptions, TractionOptions>;
+template <>
+inline constexpr int default_alternative<AnyLoadOptions> = 0;
+
+template <int dim, class List>
+struct LoadVariant;
+template <int dim, class... Options>
+struct LoadVariant<dim, std::variant<Options...>> {
+  using type = std::variant<typename Options::template Load<dim>...>;
+};
 template <int dim>
-AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space) {
+using AnyLoad = typename LoadVariant<dim, AnyLoadOptions>::type;
+
+/// Collective; `bodies` are this rank's.
+template <int dim>
+AnyLoad<dim> make_load(const AnyLoadOptions& options, const std::vector<Body<dim>>& bodies,
+                       const Space<dim>& space) {
+  return std::visit(
+      [&](const auto& o) -> AnyLoad<dim> {
+        return typename std::decay_t<decltype(o)>::template Load<dim>(o, bodies, space);
+      },
+      options);
+}
+
+template <int dim>
+AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<dim>& space,
+                               const std::filesystem::path& folder = {}) {
   if (const auto* conforming = std::get_if<ConformingOptions>(&options))
     return Conforming<dim>(*conforming, space);
-  return Wall<dim>(std::get<WallOptions>(options));
+  const auto& wall = std::get<WallOptions>(options);
+  if (!space.structured())
+    input_error("boundary '{}': walls need a structured grid; on triangles hold a named part", wall.label);
+  return Wall<dim>(wall, folder);
 }
 
 template <int dim>

@@ -4,6 +4,7 @@
 
 #include "core/curve.h"
 #include "core/describe.h"
+#include "geometry/rigid_motion.h"
 #include "geometry/wall_options.h"
 
 namespace wisp {
@@ -15,11 +16,6 @@ inline constexpr auto choices<WallKind> = choice_list<WallKind>({{"fixed", WallK
                                                                  {"roller", WallKind::roller},
                                                                  {"tangential", WallKind::tangential},
                                                                  {"prescribed", WallKind::prescribed}});
-
-enum class WallAxes { wall, grid };
-template <>
-inline constexpr auto choices<WallAxes> = choice_list<WallAxes>({{"wall", WallAxes::wall},
-                                                                 {"grid", WallAxes::grid}});
 
 enum class WallMode { consistent, literal };
 template <>
@@ -34,8 +30,7 @@ struct WallOptions {
   WallKind kind = WallKind::roller;
   std::vector<Curve> displacement;
   std::vector<Curve> velocity;
-  WallAxes axes = WallAxes::wall;
-  std::vector<double> centre;
+  std::optional<RigidMotionOptions> motion;
   WallMode mode = WallMode::consistent;
   std::optional<double> delta;
   double ghost = 1e-2;
@@ -51,16 +46,14 @@ struct WallOptions {
         key("name", &O::label, "", "name of the wall (its reactions are listed under it)").required(),
         key("shape", &O::shape, "", "where the wall is, and which side of it is solid").required(),
         key("kind", &O::kind, "",
-            "held: all directions (fixed), the normal one (roller), all but it (tangential); all move "
-            "(prescribed)"),
-        key("displacement", &O::displacement, "m", "prescribed displacement in time, in `axes`")
+            "directions that follow the wall: all (fixed, prescribed), the normal one (roller), all but it "
+            "(tangential)"),
+        key("displacement", &O::displacement, "m",
+            "displacement in time along the wall's own axes: normal into the solid, then tangents")
             .per_direction(),
-        key("velocity", &O::velocity, "m/s", "prescribed velocity in time (instead of displacement)")
+        key("velocity", &O::velocity, "m/s", "velocity along the wall's own axes (instead of displacement)")
             .per_direction(),
-        key("axes", &O::axes, "",
-            "of displacement and velocity: the wall's own (normal into the solid first), or the grid's"),
-        key("centre", &O::centre, "m", "point that the reaction's moment is about (default: the origin)")
-            .per_direction(),
+        key("motion", &O::motion, "", "rigid motion of the wall in time, along the grid's axes"),
         key("mode", &O::mode, "",
             "implicit steps: consistent (Nitsche's method), or the literal form of the paper"),
         key("delta", &O::delta, "-",

@@ -37,8 +37,7 @@ struct Case {
   AnyBasisOptions basis;
   std::vector<BodyOptions> bodies;
   std::vector<AnyBoundaryOptions> boundaries;
-  std::vector<PointLoadOptions> loads;
-  std::vector<TractionOptions> tractions;
+  std::vector<AnyLoadOptions> loads;
   std::optional<GravityOptions> gravity;
   std::optional<GhostOptions> stabilisation;
   std::vector<AnyStage> stages;
@@ -58,8 +57,7 @@ struct Case {
         key("basis", &Case::basis, "", "the grid functions"),
         key("body", &Case::bodies, "", "bodies, each of one material").required(),
         key("boundary", &Case::boundaries, "", "conditions on the motion of the grid, and walls"),
-        key("load", &Case::loads, "", "forces on chosen points"),
-        key("traction", &Case::tractions, "", "tractions and pressures on marked surfaces"),
+        key("load", &Case::loads, "", "forces on chosen points and on marked surfaces"),
         key("gravity", &Case::gravity, "", "body force per mass"),
         key("stabilisation", &Case::stabilisation, "", "Ghost stabilisation of the edge of the bodies"),
         key("stage", &Case::stages, "", "analyses, one after the other").required(),

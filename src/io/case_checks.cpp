@@ -95,7 +95,6 @@ class Checks {
     bodies();
     boundaries();
     loads();
-    tractions();
     stabilisation();
     stages();
     output();
@@ -245,6 +244,10 @@ class Checks {
       std::visit([&](const auto& b) { boundary(b, i); }, case_.boundaries[i]);
   }
 
+  /// Boundaries without rules across their keys.
+  template <class Boundary>
+  void boundary(const Boundary&, std::size_t) const {}
+
   void boundary(const ConformingOptions& b, std::size_t i) {
     const auto at = [&](std::string_view key) { return place("boundary", i, key); };
     if (b.normal.empty() + b.node.empty() + b.part.empty() != 2)
@@ -284,41 +287,56 @@ class Checks {
 
   void boundary(const WallOptions& w, std::size_t i) {
     const auto at = [&](std::string_view key) { return place("boundary", i, key); };
+    if (!grid_) context_.fail_at(at("type"), "walls need a structured grid; on triangles hold a named part");
     if (!w.displacement.empty() && !w.velocity.empty())
       context_.fail_at(at("velocity"), "give either displacement or velocity");
+    const Block<dim> box = located(context_, place("boundary", i, "shape"),
+                                   [&] { return Wall<dim>(w, context_.file().folder).shape().bounds(); });
+    for (int d = 0; d < dim; ++d)
+      if (!w.motion && !(box.lower[d] <= upper()[d] && box.upper[d] >= lower()[d]))
+        context_.fail_at(
+            place("boundary", i, "shape"),
+            fmt::format("wall \"{}\" reaches from {} to {} m, outside of the grid from {} to {} m", w.label,
+                        text<dim>(box.lower), text<dim>(box.upper), text<dim>(lower()), text<dim>(upper())));
     if (w.friction > 0.0 && w.kind != WallKind::roller)
       context_.fail_at(at("friction"), "only for kind = \"roller\"");
   }
 
   void loads() {
     check_unique(case_.loads, "load", context_);
-    for (std::size_t i = 0; i < case_.loads.size(); ++i) {
-      check_body_name(case_, case_.loads[i].body, place("load", i, "body"), context_);
-      check_rows(case_.loads[i].nearest, place("load", i, "nearest"), context_);
-    }
+    for (std::size_t i = 0; i < case_.loads.size(); ++i)
+      std::visit(
+          [&](const auto& load) {
+            if constexpr (requires { load.body; })
+              check_body_name(case_, load.body, place("load", i, "body"), context_);
+            check_load(load, i);
+          },
+          case_.loads[i]);
   }
 
-  void tractions() {
-    check_unique(case_.tractions, "traction", context_);
-    for (std::size_t i = 0; i < case_.tractions.size(); ++i) {
-      const auto& t = case_.tractions[i];
-      check_body_name(case_, t.body, place("traction", i, "body"), context_);
-      if (t.edges.size() != dim - 1)
-        context_.fail_at(place("traction", i, "edges"),
-                         fmt::format("expected {}, found {}",
-                                     dim == 2 ? "one edge vector" : "two edge vectors", t.edges.size()));
-      check_rows(t.edges, place("traction", i, "edges"), context_);
-      if (t.points.size() != t.edges.size())
-        context_.fail_at(
-            place("traction", i, "points"),
-            fmt::format("expected {} (one for each edge), found {}", t.edges.size(), t.points.size()));
-      if (!has_area(t.edges)) context_.fail_at(place("traction", i, "edges"), "the edges span no area");
-      if (t.traction.empty() == !t.pressure)
-        context_.fail_at(place("traction", i, t.pressure ? "pressure" : ""),
-                         "give either traction or pressure");
-      if (t.pressure && context_.given(place("traction", i, "factor")))
-        context_.fail_at(place("traction", i, "factor"), "is for traction; give the pressure itself in time");
-    }
+  /// Loads without rules across their keys.
+  template <class Load>
+  void check_load(const Load&, std::size_t) const {}
+
+  void check_load(const PointLoadOptions& load, std::size_t i) {
+    check_rows(load.nearest, place("load", i, "nearest"), context_);
+  }
+
+  void check_load(const TractionOptions& t, std::size_t i) {
+    const auto at = [&](std::string_view key) { return place("load", i, key); };
+    if (t.edges.size() != dim - 1)
+      context_.fail_at(at("edges"),
+                       fmt::format("expected {}, found {}", dim == 2 ? "one edge vector" : "two edge vectors",
+                                   t.edges.size()));
+    check_rows(t.edges, at("edges"), context_);
+    if (t.points.size() != t.edges.size())
+      context_.fail_at(at("points"), fmt::format("expected {} (one for each edge), found {}", t.edges.size(),
+                                                 t.points.size()));
+    if (!has_area(t.edges)) context_.fail_at(at("edges"), "the edges span no area");
+    if (t.traction.empty() == !t.pressure)
+      context_.fail_at(at(t.pressure ? "pressure" : ""), "give either traction or pressure");
+    if (t.pressure && context_.given(at("factor")))
+      context_.fail_at(at("factor"), "is for traction; give the pressure itself in time");
   }
 
   static bool has_area(const std::vector<std::vector<double>>& edges) {

@@ -55,8 +55,11 @@ void append(const Checkpoint& checkpoint, const std::string& name, std::vector<T
 std::string field_name(std::size_t body, std::string_view field) {
   return fmt::format("body {} {}", body, field);
 }
-std::string traction_name(std::size_t traction, const char* field) {
-  return fmt::format("traction {} {}", traction, field);
+std::string wall_name(std::size_t boundary, const char* field) {
+  return fmt::format("wall {} {}", boundary, field);
+}
+std::string load_name(std::size_t load, std::string_view field) {
+  return fmt::format("load {} {}", load, field);
 }
 
 /// Points of one part, behind those that are there already.
@@ -83,24 +86,61 @@ void clear_points(Model<dim>& model) {
   }
 }
 
+template <int dim>
+void store_walls(const Model<dim>& model, Checkpoint& checkpoint) {
+  for_each<Wall, dim>(model.boundaries, [&](const Wall<dim>& wall, std::size_t k) {
+    std::vector<Vec<dim>> rest, traction, gap;
+    for (const auto& s : wall.states())
+      rest.push_back(s.rest), traction.push_back(s.traction), gap.push_back(s.gap);
+    set(checkpoint, wall_name(k, "rest"), rest);
+    set(checkpoint, wall_name(k, "traction"), traction);
+    set(checkpoint, wall_name(k, "gap"), gap);
+  });
+}
+
+template <int dim>
+void restore_walls(const Checkpoint& checkpoint, Model<dim>& model) {
+  for_each<Wall, dim>(model.boundaries, [&](Wall<dim>& wall, std::size_t k) {
+    std::vector<Vec<dim>> rest, traction, gap;
+    append(checkpoint, wall_name(k, "rest"), rest);
+    append(checkpoint, wall_name(k, "traction"), traction);
+    append(checkpoint, wall_name(k, "gap"), gap);
+    if (traction.size() != rest.size() || gap.size() != rest.size())
+      input_error("checkpoint: wall '{}' has {} places, {} tractions and {} gaps", wall.name(), rest.size(),
+                  traction.size(), gap.size());
+    wall.states().clear();
+    for (std::size_t q = 0; q < rest.size(); ++q) wall.states().push_back({rest[q], traction[q], gap[q]});
+  });
+}
+
 /// What all ranks have alike.
 template <int dim>
 void restore_common(const Checkpoint& checkpoint, Model<dim>& model) {
-  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
-    auto& traction = model.tractions[k];
-    const auto size = static_cast<std::size_t>(traction.size());
-    traction.positions().clear(), traction.deformation_gradients().clear();
-    append(checkpoint, traction_name(k, "position"), traction.positions());
-    append(checkpoint, traction_name(k, "deformation_gradient"), traction.deformation_gradients());
-    if (traction.positions().size() != size || traction.deformation_gradients().size() != size)
-      input_error("checkpoint: traction '{}' has {} surface points, expected {}", traction.name(),
-                  traction.positions().size(), size);
-  }
+  for (std::size_t k = 0; k < model.loads.size(); ++k)
+    std::visit(
+        [&](auto& load) {
+          const auto read = [&](std::string_view field, auto& array) {
+            const std::size_t size = array.size();
+            array.clear();
+            append(checkpoint, load_name(k, field), array);
+            if (array.size() != size)
+              input_error("checkpoint: load '{}' has {} marked points, expected {}", load.name(),
+                          array.size(), size);
+          };
+          if constexpr (requires { load.for_each_field(read); }) load.for_each_field(read);
+        },
+        model.loads[k]);
   model.reactions.clear();
   append(checkpoint, "reactions", model.reactions);
   if (model.reactions.size() != model.boundaries.size())
     input_error("checkpoint: reactions of {} boundaries, expected {}", model.reactions.size(),
                 model.boundaries.size());
+  model.moments.clear();
+  append(checkpoint, "moments", model.moments);
+  if (model.moments.size() != model.boundaries.size())
+    input_error("checkpoint: moments of {} boundaries, expected {}", model.moments.size(),
+                model.boundaries.size());
+  restore_walls(checkpoint, model);
   model.step = checkpoint.step;
   model.time = checkpoint.time;
   model.external_work = checkpoint.number("external_work");
@@ -116,11 +156,18 @@ void store(Model<dim>& model, Checkpoint& checkpoint) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     model.bodies[b].for_each_field(
         [&](std::string_view name, const auto& field) { set(checkpoint, field_name(b, name), field); });
-  for (std::size_t k = 0; k < model.tractions.size(); ++k) {
-    set(checkpoint, traction_name(k, "position"), model.tractions[k].positions());
-    set(checkpoint, traction_name(k, "deformation_gradient"), model.tractions[k].deformation_gradients());
-  }
+  for (std::size_t k = 0; k < model.loads.size(); ++k)
+    std::visit(
+        [&](auto& load) {
+          const auto write = [&](std::string_view field, const auto& array) {
+            set(checkpoint, load_name(k, field), array);
+          };
+          if constexpr (requires { load.for_each_field(write); }) load.for_each_field(write);
+        },
+        model.loads[k]);
   set(checkpoint, "reactions", model.reactions);
+  set(checkpoint, "moments", model.moments);
+  store_walls(model, checkpoint);
   checkpoint.set_number("external_work", model.external_work);
   checkpoint.set_integer("removed", model.removed);
   Checkpoint::Integers boxes;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "boundary/on_body.h"
 #include "grid/structured.h"
 #include "grid/triangulate.h"
 
@@ -160,10 +161,43 @@ std::string grid_json(const Case& c) {
   return c.dimension == 2 ? lines_json<2>(lines) : lines_json<3>(lines);
 }
 
+/// The pieces of walls that stand still, each a line of places.
+template <int dim>
+std::string walls_json(const Case& c) {
+  double length;
+  Block<dim> box;
+  if (const auto* lines = std::get_if<StructuredGridOptions>(&c.grid)) {
+    const StructuredGrid<dim> grid(*lines);
+    length = grid.shortest_side(), box = {grid.lower(), grid.upper()};
+  } else if constexpr (dim == 2) {
+    const Triangulation mesh = make_triangulation(*triangulation_of(c.grid), c.file.folder);
+    length = mesh.shortest_height(), box = {mesh.lower(), mesh.upper()};
+  } else {
+    return {};
+  }
+  std::string text;
+  for (const auto& boundary : c.boundaries) {
+    const auto* o = std::get_if<WallOptions>(&boundary);
+    if (!o || o->motion) continue;
+    const Wall<dim> wall(*o, c.file.folder);
+    for (const auto& piece : wall.shape().pieces(length, box)) {
+      text += text.empty() ? "[" : ",\n  [";
+      for (std::size_t k = 0; k < dim; ++k) {
+        text += k > 0 ? ", [" : "[";
+        for (int d = 0; d < dim; ++d) text += fmt::format("{}{}", d > 0 ? ", " : "", piece.vertex[k][d]);
+        text += "]";
+      }
+      text += "]";
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string scene_json(const Case& c) {
-  return fmt::format("{{\"title\": {},\n \"grid\": {}}}\n", json_text(c.title), grid_json(c));
+  return fmt::format("{{\"title\": {},\n \"grid\": {},\n \"walls\": [{}]}}\n", json_text(c.title),
+                     grid_json(c), c.dimension == 2 ? walls_json<2>(c) : walls_json<3>(c));
 }
 
 VtuCells grid_cells(const Triangulation& mesh) {
@@ -208,6 +242,12 @@ HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : ou
       held_[k].push_back(d);
       titles_.push_back(fmt::format("reaction {} {} [N{}]", plain(name(model.boundaries[k])), "xyz"[d], per));
     }
+  for_each<Wall, dim>(model.boundaries, [&](const Wall<dim>& wall, std::size_t k) {
+    if (!output_.reactions) return;
+    walls_.push_back(k);
+    for (const char axis : std::string(dim == 2 ? "z" : "xyz"))
+      titles_.push_back(fmt::format("moment {} {} [{}]", plain(wall.name()), axis, dim == 2 ? "N" : "N m"));
+  });
   for (const auto& track : output_.track)
     for (const auto& [what, unit] : {std::pair{"position", "m"}, {"displacement", "m"}, {"velocity", "m/s"}})
       for (int d = 0; d < dim; ++d)
@@ -231,6 +271,8 @@ std::vector<double> HistoryColumns<dim>::values(const Row<dim>& row, const Model
   }
   for (std::size_t k = 0; k < held_.size(); ++k)
     for (const int d : held_[k]) v.push_back(row.reactions[k][d]);
+  for (const std::size_t k : walls_)
+    v.insert(v.end(), model.moments[k].data(), model.moments[k].data() + model.moments[k].size());
   for (const auto& track : row.tracked) v.insert(v.end(), track.data(), track.data() + dim);
   if (newton_) {
     const bool iterated = row.newton && !row.newton->residuals.empty();

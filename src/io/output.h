@@ -50,7 +50,8 @@ class HistoryColumns {
  private:
   OutputOptions output_;
   bool newton_ = false, removal_ = false;
-  std::vector<std::vector<int>> held_;  ///< directions that each condition holds
+  std::vector<std::vector<int>> held_;  ///< directions that each boundary holds
+  std::vector<std::size_t> walls_;      ///< boundaries with a moment
   std::vector<std::string> titles_;
 };
 

@@ -1,5 +1,8 @@
 #include "io/sound_state.h"
 
+#include "parallel/session.h"
+#include "transfer/explicit_transfer.h"
+
 namespace wisp {
 
 template <int dim>

@@ -1,5 +1,6 @@
 // Small-strain linear elasticity.
 #pragma once
+#include <array>
 #include <tuple>
 
 #include "material/elasticity.h"
@@ -49,17 +50,15 @@ struct LinearElastic {
       const double exx = f(0, 0) - 1.0;
       const double eyy = f(1, 1) - 1.0;
       const double pressure = e.lambda * (exx + eyy);
-      now.stress = old.stress + Sym<2>(pressure + two_mu * exx, pressure + two_mu * eyy, pressure,
-                                       e.mu * (f(0, 1) + f(1, 0)));
+      add(old, now, {pressure + two_mu * exx, pressure + two_mu * eyy, pressure, e.mu * (f(0, 1) + f(1, 0))});
     } else {
       const double exx = f(0, 0) - 1.0;
       const double eyy = f(1, 1) - 1.0;
       const double ezz = f(2, 2) - 1.0;
       const double pressure = e.lambda * (exx + eyy + ezz);
-      Sym<3> d;
-      d << pressure + two_mu * exx, pressure + two_mu * eyy, pressure + two_mu * ezz,
-          e.mu * (f(0, 1) + f(1, 0)), e.mu * (f(1, 2) + f(2, 1)), e.mu * (f(2, 0) + f(0, 2));
-      now.stress = old.stress + d;
+      add(old, now,
+          {pressure + two_mu * exx, pressure + two_mu * eyy, pressure + two_mu * ezz,
+           e.mu * (f(0, 1) + f(1, 0)), e.mu * (f(1, 2) + f(2, 1)), e.mu * (f(2, 0) + f(0, 2))});
     }
   }
 
@@ -81,6 +80,13 @@ struct LinearElastic {
     return 0.0;
   }
   constexpr double p_wave_modulus() const { return elasticity().p_wave_modulus(); }
+
+ private:
+  /// Number by number: a vector built from its numbers and then read in one piece makes the machine wait.
+  template <int dim>
+  static void add(const State<dim>& old, State<dim>& now, const std::array<double, sym_size<dim>>& d) {
+    for (int a = 0; a < sym_size<dim>; ++a) now.stress[a] = old.stress[a] + d[static_cast<std::size_t>(a)];
+  }
 };
 
 static_assert(Material<LinearElastic>);

@@ -28,6 +28,8 @@ struct Sampling {
   std::vector<int> divisions;
   int seed = 1;
   PointVolumes volumes = PointVolumes::share;
+  bool clip = false;
+  std::vector<std::vector<double>> cuts;
 
   static constexpr std::string_view name = "sampling";
   static constexpr std::string_view summary = "How points are laid out in a shape";
@@ -37,6 +39,9 @@ struct Sampling {
         key("method", &Sampling::method, "",
             "cells: evenly in every grid cell; gauss: at Gauss positions of every cell; "
             "divisions: evenly in the shape's bounding box; random: in every triangle"),
+        key("seed", &Sampling::seed, "-", "of method random").at_least(0),
+        key("volumes", &Sampling::volumes, "",
+            "equal shares of the cell, or the points' Voronoi cells in the shape (triangulations)"),
         key("points_per_cell", &Sampling::points_per_cell, "-",
             "points in a cell and direction (cells, gauss); of a triangle the root of their number")
             .at_least(1)
@@ -45,9 +50,12 @@ struct Sampling {
             "number of points across the bounding box in each direction (divisions)")
             .at_least(1)
             .per_direction(),
-        key("seed", &Sampling::seed, "-", "of method random").at_least(0),
-        key("volumes", &Sampling::volumes, "",
-            "equal shares of the cell, or the points' Voronoi cells in the shape (triangulations)")};
+        key("clip", &Sampling::clip, "",
+            "cut the points' sub-domains at the outline of the shape: volumes and centroids of "
+            "what is left, the total exact (box, polygon)"),
+        key("cuts", &Sampling::cuts, "m",
+            "planes (2D: lines) that cut the sub-domains as well: a point and a normal into "
+            "the body each, as one list of numbers")};
   }
 };
 

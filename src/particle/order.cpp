@@ -33,16 +33,27 @@ Location locate(Particles<dim>& points, const StructuredGrid<dim>& grid, const W
   const IndexBox<dim> owned = window.owned_cells();
   const MultiIndex<dim> lower = window.cells().lower, strides = window.cell_strides();
   int before = -1;
+  double low[dim] = {}, high[dim] = {};  // of the cell `before`: no point lies in the first one
   for (int p = 0; p < n; ++p) {
     const Vec<dim>& x = position[p];
+    bool same = true;
+    for (int d = 0; d < dim; ++d) same &= (x[d] >= low[d]) & (x[d] < high[d]);
+    if (same) {
+      cells[p] = before;
+      continue;
+    }
     bool here = true;
     int index = 0;
     for (int d = 0; d < dim; ++d) {
       const int c = grid.locate(d, x[d]);
+      low[d] = grid.line(d, c), high[d] = grid.line(d, c + 1);
       here &= c >= owned.lower[d] && c < owned.upper[d];
       index += (c - lower[d]) * strides[d];
     }
-    if (!here) index = locate_at_edge(x, grid, window, found);
+    if (!here) {
+      index = locate_at_edge(x, grid, window, found);
+      high[0] = low[0];  // not a cell whose next point we would know
+    }
     if (index >= 0) {
       found.disorder += index < before;
       before = index;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "geometry/clip.h"
 #include "geometry/region.h"
 #include "parallel/session.h"
 #include "particle/initial_state.h"
@@ -65,13 +66,68 @@ void fill_cell(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule, c
               });
 }
 
+template <int dim>
+std::vector<HalfSpace<dim>> cuts_of(const BodyOptions& options) {
+  std::vector<HalfSpace<dim>> cuts;
+  for (const auto& row : options.sampling.cuts) {
+    if (row.size() != 2 * dim)
+      input_error("body '{}': cuts needs {} numbers a plane (point, normal), found {}", options.label,
+                  2 * dim, row.size());
+    cuts.push_back({Eigen::Map<const Vec<dim>>(row.data()), Eigen::Map<const Vec<dim>>(row.data() + dim)});
+    if (!(cuts.back().normal.norm() > 0.0))
+      input_error("body '{}': cuts: a normal has no length", options.label);
+  }
+  return cuts;
+}
+
+/// Calls f(seed) for the sub-domains of a cell cut at the shape and at planes (Cortis, Coombs and Augarde
+/// 2018, section 4). A cut one becomes a domain about its centroid with the same spread, no longer than stays
+/// in the sub-domain.
+template <int dim, class F>
+void clip_cell(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule, const Region<dim>& shape,
+               const std::vector<HalfSpace<dim>>& cuts, F&& f) {
+  const int m = static_cast<int>(rule.w.size());
+  std::array<std::vector<double>, dim> edge;
+  for (int d = 0; d < dim; ++d) {
+    auto& e = edge[static_cast<std::size_t>(d)];
+    e.push_back(lower[d]);
+    for (int k = 0; k < m; ++k)
+      e.push_back(e.back() + (upper[d] - lower[d]) * rule.w[static_cast<std::size_t>(k)]);
+    e.back() = upper[d];
+  }
+  for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), MultiIndex<dim>::Constant(m)},
+              [&](const MultiIndex<dim>& index) {
+                Vec<dim> a, b;
+                for (int d = 0; d < dim; ++d) {
+                  const auto& e = edge[static_cast<std::size_t>(d)];
+                  a[d] = e[static_cast<std::size_t>(index[d])],
+                  b[d] = e[static_cast<std::size_t>(index[d] + 1)];
+                }
+                const double whole = (b - a).prod();
+                const ClippedBox<dim> part = clip_box<dim>(shape, cuts, a, b);
+                if (!(part.volume > 1e-14 * whole)) return;
+                Vec<dim> x = part.centroid;
+                Vec<dim> l = (3.0 * part.variance).cwiseSqrt().cwiseMin(x - a).cwiseMin(b - x);
+                if (part.volume > (1.0 - 1e-12) * whole) {
+                  l = 0.5 * (b - a);
+                  for (int d = 0; d < dim; ++d)
+                    x[d] = 0.5 * (lower[d] + upper[d]) +
+                           0.5 * (upper[d] - lower[d]) * rule.r[static_cast<std::size_t>(index[d])];
+                }
+                f(Seed<dim>{x, l, Vec<dim>::Zero(), part.volume});
+              });
+}
+
 /// The points that lie in a shape, layer by layer: the cells (of the grid, or of the box around the shape
 /// divided) with the same place in the last direction.
 template <int dim>
 class Layers {
  public:
   Layers(const BodyOptions& options, const StructuredGrid<dim>& grid, const std::filesystem::path& folder)
-      : grid_(grid), region_(region<dim>(options.shape, folder)) {
+      : grid_(grid),
+        region_(region<dim>(options.shape, folder)),
+        cuts_(cuts_of<dim>(options)),
+        clip_(options.sampling.clip || !cuts_.empty()) {
     const Sampling& s = options.sampling;
     const auto box = bounds(region_);
     if (s.method == SamplingMethod::divisions) {
@@ -105,7 +161,11 @@ class Layers {
     std::visit(
         [&](const auto& shape) {
           for_each_in(cells, [&](const MultiIndex<dim>& c) {
-            fill_cell<dim>(corner(c), corner(c + MultiIndex<dim>::Ones()), rule_, shape, f);
+            const Vec<dim> lower = corner(c), upper = corner(c + MultiIndex<dim>::Ones());
+            if (clip_)
+              clip_cell<dim>(lower, upper, rule_, region_, cuts_, f);
+            else
+              fill_cell<dim>(lower, upper, rule_, shape, f);
           });
         },
         region_);
@@ -119,6 +179,8 @@ class Layers {
 
   const StructuredGrid<dim>& grid_;
   Region<dim> region_;
+  std::vector<HalfSpace<dim>> cuts_;
+  bool clip_;  // sub-domains are cut instead of kept or dropped whole
   Rule rule_;
   IndexBox<dim> cells_;
   bool divided_ = false;

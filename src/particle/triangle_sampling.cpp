@@ -96,6 +96,8 @@ Layout fill_mesh(const BodyOptions& options, const MeshShape& shape, const std::
 }
 
 Layout lay_out(const BodyOptions& options, const Triangulation& grid, const std::filesystem::path& folder) {
+  if (options.sampling.clip || !options.sampling.cuts.empty())
+    input_error("body '{}': clip and cuts need a structured grid", options.label);
   Layout out;
   if (const auto* file = std::get_if<PointFile>(&options.shape)) {
     PointTable<2> table = read_points<2>(*file, folder);

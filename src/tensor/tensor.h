@@ -39,6 +39,12 @@ inline constexpr int sym_i[6] = {0, 1, 2, 0, 1, 2};
 template <int dim>
 inline constexpr int sym_j[6] = {0, 1, 2, 1, 2, 0};
 
+/// The component of `Sym<dim>` that stands for the pair (i, j), both below dim.
+template <int dim>
+constexpr int component(int i, int j) {
+  return i == j ? i : dim == 2 ? 3 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
+}
+
 /// Symmetric part of an in-plane (dim x dim) tensor; the out-of-plane component of plane strain is zero.
 template <int dim>
 inline Sym<dim> symmetric(const Mat<dim>& a) {

@@ -26,73 +26,80 @@ Mat<dim> affine_field(const Space<dim>& space, const Stencil& stencil, const Vec
   return b;
 }
 
-/// a b, written out: Eigen calls a function for it.
-template <int dim>
-inline Mat<dim> product(const Mat<dim>& a, const Mat<dim>& b) {
-  Mat<dim> c;
-  for (int j = 0; j < dim; ++j)
-    for (int i = 0; i < dim; ++i) {
-      double sum = a(i, 0) * b(0, j);
-      for (int k = 1; k < dim; ++k) sum += a(i, k) * b(k, j);
-      c(i, j) = sum;
-    }
-  return c;
-}
-
 /// One pass over the points. `strain_from_motion`: strains use the velocity of `motion`, gathered once for
-/// all.
+/// all. Small tensors are handled number by number: what is written in several pieces and read in one makes
+/// the machine wait.
 template <int dim, bool with_velocity, bool with_move, bool with_strain, bool strain_from_motion, class Basis,
           class Group>
-__attribute__((flatten)) void update_points(const Basis basis, const Space<dim>& space,
+__attribute__((flatten)) void update_points(const Basis& basis, const Space<dim>& space,
                                             Particles<dim>& points, Group& group, const PointUpdate& update) {
   using Law = std::decay_t<decltype(group.law)>;
   constexpr bool gather_motion = with_velocity || with_move || (with_strain && strain_from_motion);
   const Law law = group.law;  // a copy: the compiler then knows that no point changes it
   const double* const motion = update.motion.data();
   const double* const strain_velocity = update.strain_velocity.data();
-  const double dt = update.dt, flip = update.flip;
+  const double dt = update.dt, flip = update.flip, pic = 1.0 - update.flip;
+  const bool apic = update.apic, domains = update.domains;
   const int n = points.size();
   const Vec<dim> none = Vec<dim>::Zero();
+  Vec<dim>* const position = points.position.data();
+  Vec<dim>* const displacement = points.displacement.data();
+  Vec<dim>* const velocity = points.velocity.data();
+  Vec<dim>* const half_length = points.half_length.data();
+  Mat<dim>* const deformation_gradient = points.deformation_gradient.data();
+  auto tabulated = walk(basis);
   for (int p = 0; p < n; ++p) {
-    const auto k = static_cast<std::size_t>(p);
-    const auto stencil =
-        basis.tabulate(points.position[k], Basis::uses_domains ? points.half_length[k] : none);
-    Vec<dim> v, a;
-    Mat<dim> gradient;
+    const auto stencil = tabulated.tabulate(position[p], Basis::uses_domains ? half_length[p] : none);
+    double v[dim] = {}, a[dim] = {}, gradient[dim][dim] = {};
     if constexpr (gather_motion) {
       constexpr bool strain = with_strain && strain_from_motion;
       const auto sum = sum_of_functions<dim, motion_stride<dim>, strain>(stencil, motion);
-      for (int d = 0; d < dim; ++d) {
+      for_short<dim>([&](int d) {
         v[d] = sum.value[d], a[d] = sum.value[dim + d];
-        if constexpr (strain)
-          for (int e = 0; e < dim; ++e) gradient(d, e) = sum.gradient[e][d];
-      }
+        if constexpr (strain) for_short<dim>([&](int e) { gradient[d][e] = sum.gradient[e][d]; });
+      });
     }
     if constexpr (with_strain && !strain_from_motion) {
-      gradient.setZero();
       stencil.for_each([&](int, int i, double, const Vec<dim>& dphi) {
         const double* const u = strain_velocity + i * dim;
         for (int d = 0; d < dim; ++d)
-          for (int e = 0; e < dim; ++e) gradient(d, e) += u[d] * dphi[e];
+          for (int e = 0; e < dim; ++e) gradient[d][e] += u[d] * dphi[e];
       });
     }
     if constexpr (with_velocity) {
-      if (update.apic)
-        points.affine[k] = affine_field<dim, Basis>(space, stencil, points.position[k], motion);
-      points.velocity[k] = flip * (points.velocity[k] + dt * a) + (1.0 - flip) * v;
+      if (apic)
+        points.affine[static_cast<std::size_t>(p)] =
+            affine_field<dim, Basis>(space, stencil, position[p], motion);
+      for_short<dim>([&](int d) { velocity[p][d] = flip * (velocity[p][d] + dt * a[d]) + pic * v[d]; });
     }
     if constexpr (with_move) {
-      points.position[k] += dt * v;
-      points.displacement[k] += dt * v;
+      for_short<dim>([&](int d) {
+        const double u = dt * v[d];
+        position[p][d] += u;
+        displacement[p][d] += u;
+      });
     }
     if constexpr (with_strain) {
-      const Kinematics<dim> kinematics{Mat<dim>::Identity() + dt * gradient, dt};
-      points.deformation_gradient[k] = product<dim>(kinematics.dF, points.deformation_gradient[k]);
-      law.template stress<dim>(kinematics, group.old[k], group.old[k]);
+      Kinematics<dim> kinematics;
+      kinematics.dt = dt;
+      Mat<dim>& F = deformation_gradient[p];
+      double now[dim][dim];
+      for_short<dim>([&](int i) {
+        for_short<dim>([&](int j) { kinematics.dF(i, j) = (i == j ? 1.0 : 0.0) + dt * gradient[i][j]; });
+      });
+      for_short<dim>([&](int i) {
+        for_short<dim>([&](int j) {
+          now[i][j] = kinematics.dF(i, 0) * F(0, j);
+          for_short<dim - 1>([&](int k) { now[i][j] += kinematics.dF(i, k + 1) * F(k + 1, j); });
+        });
+      });
+      for_short<dim>([&](int i) { for_short<dim>([&](int j) { F(i, j) = now[i][j]; }); });
+      auto& state = group.old[static_cast<std::size_t>(p)];
+      law.template stress<dim>(kinematics, state, state);
       if constexpr (Basis::uses_domains && Law::finite_strain)
-        if (update.domains)
-          points.half_length[k] = points.initial_half_length[k].cwiseProduct(
-              right_stretch<dim>(points.deformation_gradient[k]).diagonal());
+        if (domains)
+          half_length[p] = points.initial_half_length[static_cast<std::size_t>(p)].cwiseProduct(
+              right_stretch<dim>(F).diagonal());
     }
   }
 }

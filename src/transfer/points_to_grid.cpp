@@ -6,13 +6,36 @@ namespace wisp {
 
 namespace {
 
+/// The record of a point: mass, momentum, force. Not returned: how depends on the registers of the machine.
+template <int dim>
+inline void set_record(Record<sums_stride<dim>>& r, double mass, const double* momentum,
+                       const double* force) {
+  if constexpr (dim == 2)
+    r = Record<sums_stride<dim>>{mass, momentum[0], momentum[1], force[0], force[1], 0.0, 0.0, 0.0};
+  else
+    r = Record<sums_stride<dim>>{mass,     momentum[0], momentum[1], momentum[2],
+                                 force[0], force[1],    force[2],    0.0};
+}
+
+/// dF = I + dt sum_i v_i (x) grad phi_i of a motion that the stress has followed.
+template <int dim, class Stencil>
+Mat<dim> followed_increment(const Stencil& stencil, const FollowedMotion& followed) {
+  Mat<dim> dF = Mat<dim>::Identity();
+  stencil.for_each([&](int, int i, double, const Vec<dim>& dphi) {
+    const double* const v = followed.velocity.data() + i * dim;
+    for (int d = 0; d < dim; ++d)
+      for (int e = 0; e < dim; ++e) dF(d, e) += followed.dt * v[d] * dphi[e];
+  });
+  return dF;
+}
+
 /// One pass over the points, every point's numbers spread over its functions as records.
 template <int dim, Gather what, bool apic, bool follow, class Basis, class State>
-__attribute__((flatten)) void add_points(const Basis basis, const Space<dim>& space,
+__attribute__((flatten)) void add_points(const Basis& basis, const Space<dim>& space,
                                          const Particles<dim>& points, const std::vector<State>& states,
                                          const Vec<dim> gravity, double* const sums,
                                          const FollowedMotion followed) {
-  constexpr int stride = sums_stride<dim>;
+  constexpr bool inertia = what != Gather::force, forces = what != Gather::inertia;
   const int n = points.size();
   const Vec<dim>* const position = points.position.data();
   const Vec<dim>* const half_length = points.half_length.data();  // empty where the basis has no domains
@@ -21,40 +44,42 @@ __attribute__((flatten)) void add_points(const Basis basis, const Space<dim>& sp
   const double* const volume = points.volume.data();
   const State* const state = states.data();
   const Vec<dim> none = Vec<dim>::Zero();
+  constexpr double zero[dim] = {};
+  auto tabulated = walk(basis);
+  RecordSums<dim, sums_stride<dim>, typename Basis::Stencil> add(sums);
   for (int p = 0; p < n; ++p) {
-    const auto stencil = basis.tabulate(position[p], Basis::uses_domains ? half_length[p] : none);
+    const auto stencil = tabulated.tabulate(position[p], Basis::uses_domains ? half_length[p] : none);
     const double m = mass[p];
-    RecordAndGradient<dim, stride> r;
-    if constexpr (what != Gather::force) {
-      r.value[0] = m;
-      if constexpr (!apic)
-        for (int d = 0; d < dim; ++d) r.value[1 + d] = m * velocity[p][d];
+    double momentum[dim] = {}, weight[dim] = {};
+    for_short<dim>([&](int d) {
+      if constexpr (inertia && !apic) momentum[d] = m * velocity[p][d];
+      if constexpr (forces) weight[d] = m * gravity[d];
+    });
+    RecordAndGradient<dim, sums_stride<dim>> r;
+    set_record<dim>(r.value, inertia ? m : 0.0, momentum, weight);
+    if constexpr (forces) {
+      const double minus_volume = -volume[p];
+      const Sym<dim>& tau = state[p].stress;
+      Mat<dim> pulled;  // tau dF^-T
+      if constexpr (follow)
+        pulled = matrix<dim>(tau) * followed_increment<dim>(stencil, followed).inverse().transpose();
+      for_short<dim>([&](int e) {
+        double force[dim];
+        for_short<dim>(
+            [&](int d) { force[d] = minus_volume * (follow ? pulled(d, e) : tau[component<dim>(d, e)]); });
+        set_record<dim>(r.gradient[e], 0.0, zero, force);
+      });
     }
-    if constexpr (what != Gather::inertia) {
-      Mat<dim> tau = matrix<dim>(state[p].stress);
-      if constexpr (follow) {
-        Mat<dim> dF = Mat<dim>::Identity();
-        stencil.for_each([&](int, int i, double, const Vec<dim>& dphi) {
-          const double* const v = followed.velocity.data() + i * dim;
-          for (int d = 0; d < dim; ++d)
-            for (int e = 0; e < dim; ++e) dF(d, e) += followed.dt * v[d] * dphi[e];
-        });
-        tau = (tau * dF.inverse().transpose()).eval();
-      }
-      for (int d = 0; d < dim; ++d) {
-        r.value[1 + dim + d] = m * gravity[d];
-        for (int e = 0; e < dim; ++e) r.gradient[e][1 + dim + d] = -volume[p] * tau(d, e);
-      }
-    }
-    add_to_functions<dim, stride>(stencil, r, sums);
-    if constexpr (apic && what != Gather::force) {
+    add.template add<forces>(stencil, r);
+    if constexpr (apic && inertia) {
       const Mat<dim>& affine = points.affine[static_cast<std::size_t>(p)];
       stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
         const Vec<dim> v = velocity[p] + affine * (space.node_position(i) - position[p]);
-        for (int d = 0; d < dim; ++d) sums[i * stride + 1 + d] += phi * m * v[d];
+        for (int d = 0; d < dim; ++d) sums[i * sums_stride<dim> + 1 + d] += phi * m * v[d];
       });
     }
   }
+  add.finish();
 }
 
 template <int dim, Gather what, bool apic, bool follow = false>

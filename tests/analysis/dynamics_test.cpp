@@ -226,7 +226,7 @@ TEST(Tractions, GiveTheirImpulse) {
     TractionOptions t;
     t.label = "push", t.body = "body 0", t.corner = {1, 0}, t.edges = {{0, 1}}, t.points = {8},
     t.traction = {300.0, 70.0};
-    o.tractions.push_back(t);
+    o.loads.push_back(t);
     const Mass mass = apply(kind, o);
     Model<2> model(o);
     Explicit<2> run(model, explicit_steps(1e-3, mass));
@@ -236,7 +236,8 @@ TEST(Tractions, GiveTheirImpulse) {
     const auto& points = model.bodies[0].points;
     double last = 0.0;
     for (std::size_t p = 0; p < points.position.size(); ++p) last = std::max(last, points.displacement[p][0]);
-    for (const auto& x : model.tractions[0].positions()) EXPECT_NEAR(x[0] - 1.0, last, 0.3 * last);
+    for (const auto& x : std::get<Traction<2>>(model.loads[0]).positions())
+      EXPECT_NEAR(x[0] - 1.0, last, 0.3 * last);
   }
 }
 

@@ -169,7 +169,7 @@ void static_case(Comparison& comparison, const std::string& name, bool gimp, boo
     t.corner = {0.75, 0.25}, t.edges = {{-1.0, 0.0}}, t.points = {9};
   else
     t.corner = {-0.25, 0.25, 0.25}, t.edges = {{1.0, 0.0, 0.0}, {0.0, 0.0, -0.5}}, t.points = {9, 5};
-  o.tractions.push_back(t);
+  o.loads.push_back(t);
   PointLoadOptions load;
   load.label = "tip", load.body = "body 0",
   load.nearest = {std::vector<double>(upper.data(), upper.data() + dim)};

@@ -26,7 +26,7 @@ ModelOptions pulled_block(const AnyLaw& law, bool gimp, double traction) {
     t.corner = {1, 0}, t.edges = {{0, 1}}, t.points = {8};
   else
     t.corner = {1, 0, 0}, t.edges = {{0, 1, 0}, {0, 0, 1}}, t.points = {8, 8};
-  o.tractions.push_back(t);
+  o.loads.push_back(t);
   return o;
 }
 

@@ -52,7 +52,7 @@ TEST(Triangles, TractionBalancesOnEveryBasis) {
     TractionOptions t;
     t.label = "pull", t.body = "body 0", t.traction = {0.3, -0.2};
     t.corner = {2, 0}, t.edges = {{0, 1}}, t.points = {12};
-    o.tractions.push_back(t);
+    o.loads.push_back(t);
     Model<2> model(o);
     QuasiStaticOptions q;
     q.steps = 1;

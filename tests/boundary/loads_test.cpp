@@ -1,5 +1,5 @@
 // Point loads and tractions: resultants for every basis, following pressure, rotation.
-#include "boundary/loads.h"
+#include "boundary/list.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(PointLoad, ActsAtItsPointsWithItsTotal) {
     PointLoadOptions o;
     o.label = "tip", o.body = "block", o.nearest = {{2.0, 1.4}, {2.0, 1.6}}, o.force = {3.0, -8.0};
     o.factor.times = {0.0, 1.0}, o.factor.values = {0.0, 2.0};
-    const PointLoad<2> load(o, s.bodies);
+    const PointLoad<2> load(o, s.bodies, *s.space);
     ASSERT_EQ(load.ids().size(), 2U);
     std::vector<double> force(static_cast<std::size_t>(s.space->n_functions()) * 2, 0.0);
     load.add_force(*s.space, s.bodies, 0.25, force);
@@ -46,7 +46,7 @@ TEST(PointLoad, WrongDescriptionsAreInputErrors) {
   const auto wrong = [&](auto&& change) {
     PointLoadOptions w = o;
     change(w);
-    EXPECT_THROW(PointLoad<2>(w, s.bodies), InputError);
+    EXPECT_THROW(PointLoad<2>(w, s.bodies, *s.space), InputError);
   };
   wrong([](auto& w) { w.body = "blok"; });
   wrong([](auto& w) { w.nearest = {}; });
@@ -76,7 +76,7 @@ void total_is_traction_times_area() {
     o.factor = Curve(2.0);
     const Traction<dim> traction(o, s.bodies, *s.space);
     std::vector<double> force(static_cast<std::size_t>(s.space->n_functions()) * dim, 0.0);
-    traction.add_force(*s.space, 0.0, force);
+    traction.add_force(*s.space, s.bodies, 0.0, force);
     const auto r = resultant<dim>(*s.space, force);
     const Vec<dim> t = 2.0 * (dim == 2 ? 1.0 : 0.5) * Eigen::Map<const Vec<dim>>(o.traction.data());
     Vec<dim> centre = Vec<dim>::Constant(1.5);
@@ -110,7 +110,7 @@ TEST(Traction, ADeadLoadKeepsItsDirectionAPressureFollows) {
       EXPECT_LT((traction.positions()[0] - centre - F * (before - centre)).norm(), 1e-13);
       EXPECT_LT((traction.deformation_gradients()[0] - F).norm(), 1e-13);
       std::vector<double> force(u.size(), 0.0);
-      traction.add_force(*s.space, 0.0, force);
+      traction.add_force(*s.space, s.bodies, 0.0, force);
       const Vec<2> expected = options == &dead ? Vec<2>(5.0, 0.0) : Vec<2>(-5.0 * 2.0 * rotation.col(0));
       EXPECT_LT((resultant(*s.space, force).force - expected).norm(), 1e-12);
     }
@@ -144,7 +144,7 @@ void closed_surface_has_no_net_pressure() {
     Traction<dim> traction(o, s.bodies, *s.space);
     traction.move(*s.space, u, dim, 1.0);
     std::vector<double> one(u.size(), 0.0);
-    traction.add_force(*s.space, 0.0, one);
+    traction.add_force(*s.space, s.bodies, 0.0, one);
     strongest = std::max(strongest, resultant<dim>(*s.space, one).force.norm());
     for (std::size_t k = 0; k < force.size(); ++k) force[k] += one[k];
   }
@@ -166,7 +166,7 @@ TEST(Traction, ActsThroughTheNearestActiveCell) {
   for (int k = 0; k < 2; ++k) {
     traction.settle(*s.space, active_cells(*s.space, s.bodies));
     std::vector<double> force(static_cast<std::size_t>(s.space->n_functions()) * 2, 0.0);
-    traction.add_force(*s.space, 0.0, force);
+    traction.add_force(*s.space, s.bodies, 0.0, force);
     EXPECT_LT((resultant(*s.space, force).force - Vec<2>(5.0, 1.0)).norm(), 1e-13);
     for (int i = 0; i < s.space->n_functions(); ++i)
       if (s.space->node_position(i)[0] > 2.0) {

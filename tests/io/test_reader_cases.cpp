@@ -52,7 +52,8 @@ body = "left"
 nearest = [[0.5, 0.5]]
 force = [1.0, 0.0]
 factor = [[0.0, 0.0], [1.0, 1.0]]
-[[traction]]
+[[load]]
+type = "traction"
 name = "cover"
 body = "left"
 corner = [1.5, 1.5]
@@ -127,7 +128,7 @@ TEST(Case, ReadsTheGoodOne) {
   EXPECT_EQ(std::get<VonMises>(c.bodies[1].material).yield_stress, 1e4);
   EXPECT_EQ(c.bodies[1].sampling.points_per_cell, 3);
   EXPECT_EQ(std::get<ExplicitOptions>(c.stages[1]).cfl, 0.4);
-  EXPECT_DOUBLE_EQ(c.loads[0].factor(0.5), 0.5);
+  EXPECT_DOUBLE_EQ(std::get<PointLoadOptions>(c.loads[0]).factor(0.5), 0.5);
   EXPECT_EQ(c.output.track[0].label, "tip");
   EXPECT_EQ(default_output_folder(c), std::filesystem::path("results/good"));
   EXPECT_EQ(default_output_folder(read_case(CaseSource{"a/beam/case.toml", "a/beam", good, {}})),
@@ -155,6 +156,28 @@ TEST(Case, EveryTemplateIsAValidCase) {
           EXPECT_EQ(complaint(text), "(no error)") << text;
         }
   EXPECT_EQ(complaint(case_template({"quasi-static", "stabilisation", "polygon", "k0"})), "(no error)");
+  for (const char* grid : {"triangle-blocks", "delaunay"})
+    for (const char* basis : {"linear", "lagrange-quadratic", "powell-sabin", "powell-sabin-cubic"}) {
+      const std::string text = case_template({"explicit", grid, basis});
+      EXPECT_EQ(complaint(text), "(no error)") << text;
+    }
+}
+
+TEST(Case, TrianglesAreCheckedWithTheRest) {
+  const std::string good = case_template({"explicit", "delaunay"});
+  const auto with = [&](const std::string& old, const std::string& replacement) {
+    std::string text = good;
+    const auto at = text.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    return complaint(text.replace(at, old.size(), replacement));
+  };
+  EXPECT_NE(with("type = \"linear\"", "type = \"gimp\"").find("needs a structured grid"), std::string::npos);
+  EXPECT_NE(with("[2.0, 2.0]", "[2.0, -2.0]").find("crosses"), std::string::npos);
+  EXPECT_NE(with("normal = \"y\"", "part = \"sied 1\" # ").find("did you mean 'side 1'?"), std::string::npos);
+  EXPECT_NE(with("at = 0.0", "at = 0.01").find("no edge of a triangle lies on y = 0.01"), std::string::npos);
+  EXPECT_NE(complaint(case_template({"explicit", "powell-sabin"})).find("needs a grid of triangles"),
+            std::string::npos);
+  EXPECT_NE(complaint(case_template({"explicit", "delaunay", "3d"})).find("2D"), std::string::npos);
 }
 
 TEST(Case, TemplatesNameEveryKey) {

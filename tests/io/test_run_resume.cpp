@@ -96,12 +96,19 @@ const std::string out =
 std::vector<Variation> variations() {
   const std::string ghost(test::ghost);
   const std::string traction =
-      "[[traction]]\nname = \"cover\"\nbody = \"block\"\ncorner = [1.25, 1.0]\nedges = [[-1.0, 0.0]]\npoints "
+      "[[load]]\ntype = \"traction\"\nname = \"cover\"\nbody = \"block\"\ncorner = [1.25, 1.0]\nedges = "
+      "[[-1.0, 0.0]]\npoints "
       "= "
       "[8]\npressure = [[0.0, 0.0], [0.04, 1e3]]\n";
   const std::string load =
       "[[load]]\nname = \"push\"\nbody = \"block\"\nnearest = [[1.2, 0.9]]\nforce = [5.0, 0.0]\n";
   const std::string slow = "[0.0, 0.0]";
+  const std::string walls =
+      "[[boundary]]\ntype = \"wall\"\nname = \"slope\"\nunilateral = true\nfriction = 0.3\n"
+      "shape = { type = \"plane\", point = [0.25, 0.3], normal = [0.1, 1.0] }\n"
+      "[[boundary]]\ntype = \"wall\"\nname = \"ram\"\nunilateral = true\n"
+      "shape = { type = \"polyline\", vertices = [[1.3, 0.1], [1.3, 1.4]] }\n"
+      "motion = { velocity = [-1.0, 0.0], angular_velocity = 0.2, centre = [1.3, 0.5] }\n";
   return {
       {"LumpedUsl", {.stages = explicit_stage(""), .output = out}},
       {"LumpedUsfGimpVonMises",
@@ -116,6 +123,17 @@ std::vector<Variation> variations() {
         .more = ghost + traction + load,
         .output = out}},
       {"Musl", {.stages = explicit_stage("stress_update = \"musl\"\n"), .output = out}},
+      {"WallsGimpMusl",
+       {.basis = "gimp",
+        .stages = explicit_stage("stress_update = \"musl\"\n"),
+        .more = walls,
+        .output = out}},
+      {"WallsLinearUsl", {.stages = explicit_stage(""), .more = walls, .output = out}},
+      {"WallsConsistentGhost",
+       {.basis = "gimp",
+        .stages = explicit_stage("mass = \"consistent\"\n"),
+        .more = ghost + walls,
+        .output = out}},
       {"Apic", {.stages = explicit_stage("velocity_update = \"apic\"\n"), .output = out}},
       {"ConsistentGhostCfl",
        {.stages = "[[stage]]\ntype = \"explicit\"\nduration = 0.2\ncfl = 0.2\nmass = \"consistent\"\n",

@@ -43,6 +43,26 @@ def check_column(results):
     expect(error < 0.05, f"stress differs by {error:.3f} of the greatest")
 
 
+def check_arch(results):
+    history = results.history
+    weight = 1000.0 * 9.81 * np.sum(results.points(0)["initial_volume"])
+    expect(abs(history["reaction feet y [N/m]"][-1] - weight) < 1e-6 * weight, "the feet carry the weight")
+    expect(abs(history["reaction feet x [N/m]"][-1]) < 1e-3 * weight, "the thrusts of both feet balance")
+    expect(-0.1 < history["crown displacement y [m]"][-1] < -0.001, "the crown sinks, by less than its thickness")
+    expect(len(results.scene.cells) == 2011, "the picture shows the triangles")
+
+
+def check_bar(results):
+    history = results.history
+    time, tip = history["time"], history["tip displacement x [m]"]
+    place = history["tip position x [m]"][0]
+    # u = rho g (2 L x - x^2) / E at t = 2 L / c, the greatest, with L = 1 m; the tracked point is a little inside.
+    greatest = 1000.0 * (2.0 * place - place**2) / 1e5
+    expect(abs(np.max(tip) - greatest) < 0.01 * greatest, f"the tip goes to {np.max(tip)} m, exactly {greatest} m")
+    expect(abs(time[np.argmax(tip)] - 0.2) < 0.01, f"at {time[np.argmax(tip)]} s, exactly 0.2 s")
+    expect(abs(tip[-1]) < 0.02 * greatest, f"after a period it is at {tip[-1]} m")
+
+
 def main(program, case):
     name = os.path.basename(os.path.dirname(case))
     with tempfile.TemporaryDirectory() as folder:
@@ -58,6 +78,10 @@ def main(program, case):
         expect(os.path.getsize(os.path.join(out, "picture.png")) > 1000, "a picture")
         if name == "01-compressed-column":
             check_column(results)
+        if name == "07-gmsh-arch":
+            check_arch(results)
+        if name == "08-vibrating-bar":
+            check_bar(results)
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ BeamRun run_beam(const BeamCase& beam) {
   QuasiStaticOptions stage;
   stage.steps = beam_steps, stage.tolerance = 1e-6, stage.max_iterations = 10;
   Implicit<2> analysis(*run.model, stage);
-  const auto& ids = run.model->loads.front().ids();
+  const auto& ids = std::get<PointLoad<2>>(run.model->loads.front()).ids();
   run.margin = std::numeric_limits<double>::infinity();
   try {
     for (int step = 1; step <= beam_steps; ++step) {

@@ -99,10 +99,7 @@ std::vector<CollisionCase> table_3_cases(bool full) {
       for (const auto& points : resolutions())
         for (const int steps : step_counts)
           for (const int cells : meshes) {
-            // By default a dozen: what the trends need at the coarse points, one pair of step counts each.
-            const bool trend = cells != 5 || update == StressUpdate::usf;
-            const bool chosen =
-                points.name == "coarse" && ((steps == 1000 && trend) || (steps == 2000 && cells == 10));
+            const bool chosen = points.name == "coarse" && steps <= 2000;
             if (full || chosen) cases.push_back({update, mass, points.name, steps, cells, false});
           }
   return cases;
@@ -112,50 +109,86 @@ std::optional<double> printed_error(const Published& published, const CollisionC
   return published.at({word(c.update), word(c.mass), c.points, std::to_string(c.steps)}, spacing(c.cells));
 }
 
-/// Gated rows for the paper's points (i) to (iii), over the runs that were made.
-void add_trends(const Published& published, const std::map<CollisionCase, double>& errors,
-                std::vector<VerificationRow>& rows) {
-  const auto add = [&](const std::string& label, const char* quantity, double value, bool holds) {
-    VerificationRow row{label, quantity, std::nullopt, value};
-    row.gated = true, row.verdict = holds;
-    rows.push_back(row);
-  };
+using Errors = std::map<CollisionCase, double>;
+
+VerificationRow trend(const std::string& label, const char* quantity, double value, bool holds) {
+  VerificationRow row{label, quantity, std::nullopt, value};
+  row.gated = true, row.verdict = holds;
+  return row;
+}
+
+/// "Increasing the number of time steps reduces the average energy error ... for all analyses."
+void add_point_1(const Errors& errors, std::vector<VerificationRow>& rows) {
   for (const auto& [c, error] : errors) {
-    CollisionCase other = c;
-    other.steps = 2 * c.steps;
-    if (const auto finer = errors.find(other); finer != errors.end())
-      add("(i) " + name(c), "error over that of twice the steps", error / finer->second,
-          error > finer->second);
-    other = c, other.mass = Mass::lumped;
-    const auto lumped = errors.find(other);
-    if (c.mass == Mass::lumped || lumped == errors.end()) continue;
-    const double ratio = lumped->second / error;
-    if (c.update == StressUpdate::usf) {
-      const double printed = printed_error(published, other).value() / printed_error(published, c).value();
-      VerificationRow row{"(ii) " + name(c), "lumped over Ghost", printed, ratio};
-      row.gated = true, row.verdict = (ratio > 1.0) == (printed > 1.0);
-      rows.push_back(row);
-    }
-    if (c.update == StressUpdate::usl && c.cells != 5)
-      // "An order of magnitude" is a factor of 5.6 to 14 in print (the least at h = 0.05 m, fine points).
-      add("(iii) " + name(c), "lumped over Ghost", ratio, ratio > 5.0);
+    CollisionCase finer = c;
+    finer.steps = 2 * c.steps;
+    if (const auto other = errors.find(finer); other != errors.end())
+      rows.push_back(trend("(i) " + name(c), "error over that of twice the steps", error / other->second,
+                           error > other->second));
+  }
+}
+
+/// "Ghost ... is more sensitive to changes in background grid resolution compared to the lumped mass matrix
+/// when an USF approach is adopted, with the average energy error being smaller for the h = 0.2 m and 0.1 m
+/// analyses ... but the opposite being true for the h = 0.05 m analysis."
+void add_point_2(const Published& published, const Errors& errors, std::vector<VerificationRow>& rows) {
+  for (const auto& [c, error] : errors) {
+    CollisionCase lumped = c;
+    lumped.mass = Mass::lumped;
+    if (c.update != StressUpdate::usf || c.mass == Mass::lumped || !errors.count(lumped)) continue;
+    const double ratio = errors.at(lumped) / error;
+    const double printed = printed_error(published, lumped).value() / printed_error(published, c).value();
+    VerificationRow row{"(ii) " + name(c), "lumped over Ghost", printed, ratio};
+    // Which of two printed errors is the smaller says something of the methods only where they differ; where
+    // the print has them within 5 %, on an outline that is not printed, their ratio is held to the table's
+    // 25 %.
+    row.tolerance = 0.25, row.gated = true;
+    if (std::abs(printed - 1.0) > 0.05) row.verdict = (ratio > 1.0) == (printed > 1.0);
+    rows.push_back(row);
+    CollisionCase fine = c, fine_lumped = lumped;
+    fine.cells = fine_lumped.cells = 20;
+    if (c.cells != 10 || !errors.count(fine) || !errors.count(fine_lumped)) continue;
+    const auto print = [&](const CollisionCase& of) { return printed_error(published, of).value(); };
+    VerificationRow growth{"(ii) " + name(c), "growth of the error to h=0.05, Ghost over lumped",
+                           print(fine) / print(c) / (print(fine_lumped) / print(lumped)),
+                           errors.at(fine) / error / (errors.at(fine_lumped) / errors.at(lumped))};
+    growth.gated = true, growth.verdict = growth.computed > 1.0;
+    rows.push_back(growth);
+  }
+}
+
+/// "The combination of an USL approach with a lumped mass matrix ... yields excessive energy dissipation ...
+/// an order of magnitude larger than that of the USL with a stabilised consistent mass matrix for mesh sizes
+/// h = 0.1 m and 0.05 m."
+void add_point_3(const Published& published, const Errors& errors, std::vector<VerificationRow>& rows) {
+  for (const auto& [c, error] : errors) {
+    CollisionCase lumped = c;
+    lumped.mass = Mass::lumped;
+    if (c.update != StressUpdate::usl || c.mass == Mass::lumped || c.cells == 5 || !errors.count(lumped))
+      continue;
+    // In print the order of magnitude is a factor of 5.6 (h = 0.05 m, fine points) to 14.
+    rows.push_back(trend("(iii) " + name(c), "lumped over Ghost", errors.at(lumped) / error,
+                         errors.at(lumped) > 5.0 * error));
+    rows.back().published = printed_error(published, lumped).value() / printed_error(published, c).value();
   }
 }
 
 std::vector<VerificationRow> table_3(Runs& runs, bool full) {
   const Published published("ghost-table-3");
   std::vector<VerificationRow> rows;
-  std::map<CollisionCase, double> errors;
+  Errors errors;
   for (const auto& c : table_3_cases(full)) {
     const double error = runs.of(c).mean_error();
     errors[c] = error;
     VerificationRow row{name(c), "mean energy error, 1e-3", printed_error(published, c), 1e3 * error};
-    row.tolerance = 0.25;  // a target, not gated: it depends on the outline
+    row.tolerance = 0.25;  // a target, not gated: the time of the impact depends on the outline
     rows.push_back(row);
     rows.push_back({name(c), "the same with the nodal kinetic energy, 1e-3", std::nullopt,
                     1e3 * runs.of(c).mean_error(true)});
   }
-  add_trends(published, errors, rows);
+  add_point_1(errors, rows);
+  add_point_2(published, errors, rows);
+  add_point_3(published, errors, rows);
   return rows;
 }
 

@@ -77,9 +77,13 @@ class Mapping {
   std::vector<double> sums_;
 };
 
-/// Unstabilised condition numbers need the singular values of a large factor: only at every `stride`th
-/// position.
-std::vector<Sample> sweep(const Resolution& points, int stride) {
+/// How many of the positions are looked at: every `visited`th, and, as unstabilised condition numbers need
+/// the singular values of a large factor, every `factored`th for these.
+struct Strides {
+  int visited, factored;
+};
+
+std::vector<Sample> sweep(const Resolution& points, const Strides& every) {
   LinearElastic law;
   law.density = 1.0;
   ModelOptions options;
@@ -93,6 +97,7 @@ std::vector<Sample> sweep(const Resolution& points, int stride) {
   for (int i = 0; i <= positions; ++i) {
     if (i > 0)
       for (auto& x : model.bodies[0].points.position) x += Vec<2>::Constant(travel / positions);
+    if (i % every.visited != 0) continue;
     const Position position = settle_at(model, 1);
     const BlockMatrix plain = consistent_mass(model, position, nullptr);
     const BlockMatrix stable = consistent_mass(model, position, &ghost);
@@ -104,7 +109,7 @@ std::vector<Sample> sweep(const Resolution& points, int stride) {
              mapping.consistent(stable)[0],
              mapping.lumped(),
              nothing};
-    if (i % stride == 0) {
+    if (i % every.factored == 0) {
       s.plain = factor_extremes(mass_factor(model, position.unknowns)).condition();
       s.velocity_plain = mapping.consistent(plain)[1];
     }
@@ -117,7 +122,9 @@ class Sweeps {
  public:
   const std::vector<Sample>& of(const Resolution& points, bool full) {
     auto& kept = kept_[points.name];
-    if (kept.empty()) kept = sweep(points, full ? 1 : 10);
+    // Figures 9 and 10 show every position of the coarse points; of the others only maxima are printed.
+    const Strides every = full ? Strides{1, 1} : points.name == "coarse" ? Strides{1, 10} : Strides{5, 20};
+    if (kept.empty()) kept = sweep(points, every);
     return kept;
   }
 

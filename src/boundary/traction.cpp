@@ -1,24 +1,16 @@
-#include "boundary/loads.h"
+#include "boundary/traction.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
-#include "core/error.h"
+#include "boundary/on_body.h"
 #include "parallel/session.h"
 
 namespace wisp {
 
 namespace {
-
-template <int dim>
-Vec<dim> as_vector(const std::vector<double>& list, const char* kind, const std::string& name,
-                   const char* key) {
-  if (list.size() != dim)
-    input_error("{} '{}': {} needs {} values, found {}", kind, name, key, dim, list.size());
-  return Eigen::Map<const Vec<dim>>(list.data());
-}
 
 template <int dim>
 std::string place(const Vec<dim>& x) {
@@ -51,71 +43,7 @@ Vec<2> host_on(const Triangulation& mesh, const Vec<2>& x, const ActiveCells& ac
   return host;
 }
 
-/// Calls f(function, phi, dphi) at x for a point without extent: the basis' functions with a domain of zero
-/// size.
-template <int dim, class F>
-void for_each_function(const Space<dim>& space, const Vec<dim>& x, const Vec<dim>& half_length, F&& f) {
-  std::visit(
-      [&](const auto& basis) {
-        basis.tabulate(x, half_length).for_each([&](int, int i, double phi, const Vec<dim>& dphi) {
-          f(i, phi, dphi);
-        });
-      },
-      space.basis());
-}
-
 }  // namespace
-
-template <int dim>
-std::size_t body_index(const std::vector<Body<dim>>& bodies, const std::string& name,
-                       const std::string& user) {
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b].name == name) return b;
-  std::string names;
-  for (const auto& body : bodies) names += (names.empty() ? "" : ", ") + body.name;
-  input_error("{}: there is no body '{}'; bodies are {}", user, name, names);
-}
-
-template <int dim>
-std::int64_t nearest_point(const Body<dim>& body, const Vec<dim>& position) {
-  double best = std::numeric_limits<double>::max();
-  std::int64_t id = std::numeric_limits<std::int64_t>::max();
-  for (std::size_t p = 0; p < body.points.position.size(); ++p) {
-    const double distance = (body.points.position[p] - position).squaredNorm();
-    if (distance < best || (distance == best && body.points.id[p] < id))
-      best = distance, id = body.points.id[p];
-  }
-  const double least = Session::min(best);
-  return Session::min(best == least ? id : std::numeric_limits<std::int64_t>::max());
-}
-
-template <int dim>
-PointLoad<dim>::PointLoad(const PointLoadOptions& options, const std::vector<Body<dim>>& bodies)
-    : options_(options) {
-  body_ = body_index(bodies, options.body, "load '" + options.label + "'");
-  if (options.nearest.empty()) input_error("load '{}': nearest needs at least one position", options.label);
-  for (const auto& list : options.nearest)
-    ids_.push_back(nearest_point(bodies[body_], as_vector<dim>(list, "load", options.label, "nearest")));
-  auto sorted = ids_;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-    input_error("load '{}': two positions in nearest choose the same point", options.label);
-  share_ = as_vector<dim>(options.force, "load", options.label, "force") / static_cast<double>(ids_.size());
-}
-
-template <int dim>
-void PointLoad<dim>::add_force(const Space<dim>& space, const std::vector<Body<dim>>& bodies, double t,
-                               std::span<double> force) const {
-  const Particles<dim>& points = bodies[body_].points;
-  const Vec<dim> f = options_.factor(t) * share_;
-  for (std::size_t p = 0; p < points.id.size(); ++p) {
-    if (std::find(ids_.begin(), ids_.end(), points.id[p]) == ids_.end()) continue;
-    const Vec<dim> l = points.half_length.empty() ? Vec<dim>::Zero() : points.half_length[p];
-    for_each_function<dim>(space, points.position[p], l, [&](int i, double phi, const Vec<dim>&) {
-      for (int d = 0; d < dim; ++d) force[static_cast<std::size_t>(i * dim + d)] += phi * f[d];
-    });
-  }
-}
 
 template <int dim>
 Traction<dim>::Traction(const TractionOptions& options, const std::vector<Body<dim>>& bodies,
@@ -199,7 +127,8 @@ bool Traction<dim>::mine(const Space<dim>& space, const Vec<dim>& x) const {
 }
 
 template <int dim>
-void Traction<dim>::add_force(const Space<dim>& space, double t, std::span<double> force) const {
+void Traction<dim>::add_force(const Space<dim>& space, const std::vector<Body<dim>>&, double t,
+                              std::span<double> force) const {
   for (std::size_t s = 0; s < position_.size(); ++s) {
     if (!mine(space, position_[s])) continue;
     Vec<dim> f;
@@ -237,13 +166,7 @@ void Traction<dim>::move(const Space<dim>& space, std::span<const double> field,
   }
 }
 
-template class PointLoad<2>;
-template class PointLoad<3>;
 template class Traction<2>;
 template class Traction<3>;
-template std::int64_t nearest_point<2>(const Body<2>&, const Vec<2>&);
-template std::int64_t nearest_point<3>(const Body<3>&, const Vec<3>&);
-template std::size_t body_index<2>(const std::vector<Body<2>>&, const std::string&, const std::string&);
-template std::size_t body_index<3>(const std::vector<Body<3>>&, const std::string&, const std::string&);
 
 }  // namespace wisp

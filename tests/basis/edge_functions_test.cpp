@@ -1,5 +1,5 @@
 // Which functions a condition along edges fixes.
-#include "basis/trace.h"
+#include "basis/edge_functions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,216 @@
+#include "boundary/wall_contact.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "parallel/session.h"
+
+namespace wisp {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double nudge = 1e-6;  // cells: a closest point on a grid line belongs to the cell on the solid side
+constexpr double held_gap = 0.1;  // cells: a wall that holds takes hold of what is nearer than this
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Half the distance between points that fill their volume evenly.
+template <int dim>
+double half_spacing(double volume) {
+  return 0.5 * (dim == 2 ? std::sqrt(volume) : std::cbrt(volume));
+}
+
+}  // namespace
+
+template <int dim>
+Vec<dim> ContactWall<dim>::prescribed(const Vec<dim>& n, double t, double dt) const {
+  const WallOptions& options = this->options();
+  const bool rate = !options.velocity.empty();
+  const auto& curves = rate ? options.velocity : options.displacement;
+  Vec<dim> v = Vec<dim>::Zero();
+  for (std::size_t d = 0; d < curves.size() && d < dim; ++d)
+    v[static_cast<int>(d)] = (rate ? integral(curves[d], t, t + dt) : curves[d](t + dt) - curves[d](t)) / dt;
+  if (curves.empty()) return v;
+  if constexpr (dim == 2) {
+    return v[0] * n + v[1] * Vec<2>(-n.y(), n.x());
+  } else {
+    const Vec<3> a = n.unitOrthogonal();
+    return v[0] * n + v[1] * a + v[2] * n.cross(a);
+  }
+}
+
+template <int dim>
+WallContact<dim>::WallContact(const std::vector<Wall<dim>>& walls, const Space<dim>& space)
+    : walls_(walls.begin(), walls.end()), space_(&space), cutter_(space) {
+  if (walls_.empty()) return;
+  if (Session::size() > 1)
+    input_error("boundary '{}': walls in explicit stages run on one rank only, not on {}",
+                walls_.front().name(), Session::size());
+  const StructuredGrid<dim>& grid = space.grid();
+  // Walls without bounds come as far as the grid reaches, and as far again if they move.
+  const Vec<dim> reach = grid.upper() - grid.lower();
+  for (const auto& wall : walls_) {
+    const double margin = wall.motion().moves() ? 2.0 : 0.0;
+    const Vec<dim> more = margin * Vec<dim>::Constant(reach.norm());
+    pieces_.push_back(
+        wall.shape().pieces(0.25 * grid.shortest_side(), {grid.lower() - more, grid.upper() + more}));
+    any_moves_ |= wall.motion().moves();
+  }
+  near_.assign(at(space.window().n_cells()), 0);
+  slot_.assign(at(space.n_functions()), -1);
+  reactions_.resize(walls_.size());
+  cut_walls(0.0);
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    if (first_row_[w] == first_row_[w + 1] && !walls_[w].motion().moves())
+      input_error("boundary '{}': the whole wall lies outside the grid", walls_[w].name());
+}
+
+template <int dim>
+void WallContact<dim>::cut_walls(double t) {
+  rows_.clear();
+  first_row_.assign(1, 0);
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const auto& motion = walls_[w].motion();
+    if (motion.moves()) {
+      const Mat<dim> turn = motion.rotation(t);
+      const Vec<dim> shift = motion.position(Vec<dim>::Zero(), t);
+      for (WallPiece<dim> piece : pieces_[w]) {
+        for (auto& v : piece.vertex) v = (shift + turn * v).eval();
+        piece.normal = (turn * piece.normal).eval();
+        cutter_.add(piece);
+      }
+    } else {
+      for (const auto& piece : pieces_[w]) cutter_.add(piece);
+    }
+    cutter_.finish(static_cast<int>(w), rows_);
+    first_row_.push_back(rows_.size());
+  }
+  mark_cells();
+}
+
+/// Points within a cell's side of a wall lie in a host cell or a neighbour of one.
+template <int dim>
+void WallContact<dim>::mark_cells() {
+  for (const int c : near_cells_) near_[at(c)] = 0;
+  near_cells_.clear();
+  const auto& window = space_->window();
+  for (const auto& row : rows_) {
+    const MultiIndex<dim> cell = window.cell_multi_index(row.cell);
+    for_each_in(IndexBox<dim>{cell - MultiIndex<dim>::Ones(), cell + MultiIndex<dim>::Constant(2)},
+                [&](const MultiIndex<dim>& c) {
+                  if (!window.contains_cell(c)) return;
+                  const int k = window.cell_index(c);
+                  if (near_[at(k)]) return;
+                  near_[at(k)] = 1;
+                  near_cells_.push_back(k);
+                });
+  }
+}
+
+template <int dim>
+void WallContact<dim>::find(const std::vector<Body<dim>>& bodies, double t, double dt) {
+  time_ = t;
+  if (any_moves_) cut_walls(t);
+  gap_.assign(rows_.size(), infinite);
+  points_.clear();
+  touches_.clear();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::vector<int>& cell = bodies[b].points.cell;
+    for (std::size_t p = 0; p < cell.size(); ++p)
+      if (near_[at(cell[p])]) {
+        points_.push_back({static_cast<int>(b), static_cast<int>(p)});
+        touch(bodies[b], points_.back(), t);
+      }
+  }
+  choose_rows(t, dt);
+}
+
+/// Distances of one point to all walls: gaps of rows, and what a point is too close by.
+template <int dim>
+void WallContact<dim>::touch(const Body<dim>& body, PointOf which, double t) {
+  const auto p = at(which.point);
+  const Vec<dim>& x = body.points.position[p];
+  const double h = space_->grid().shortest_side(), half = half_spacing<dim>(body.points.volume[p]);
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const auto& wall = walls_[w];
+    const bool moves = wall.motion().moves();
+    WallDistance<dim> d = wall.shape().signed_distance(moves ? wall.motion().rest(x, t) : x);
+    if (d.beyond || d.distance > h + half || d.distance < -h) continue;
+    // A point that began nearer than half a spacing stays as near as that: nothing jumps at the start.
+    const Vec<dim> start = x - body.points.displacement[p];
+    const double initial =
+        wall.shape().signed_distance(moves ? wall.motion().rest(start, 0.0) : start).distance;
+    if (initial < -0.5 * h) continue;  // it began behind the wall, as another body's neighbour may
+    if (moves) {
+      d.closest = wall.motion().position(d.closest, t);
+      d.normal = (wall.motion().rotation(t) * d.normal).eval();
+    }
+    // The distance follows the stretch of the fibre that now points to the wall: else a body that is squeezed
+    // and released would be pushed out by every squeeze and fall back after it, and sink into itself.
+    const double stretch = 1.0 / (body.points.deformation_gradient[p].inverse() * d.normal).norm();
+    const double allowed = std::min(half, initial) * (std::isfinite(stretch) ? stretch : 1.0),
+                 missing = allowed - d.distance;
+    const int row = row_at(static_cast<int>(w), d.closest, d.normal);
+    if (row >= 0) gap_[at(row)] = std::min(gap_[at(row)], -missing);
+    const bool kept = !wall.unilateral() && wall.options().kind != WallKind::prescribed && initial <= half;
+    if (wall.holds_normal() && wall.options().velocity.empty() && wall.options().displacement.empty() &&
+        (missing > 0.0 || kept))
+      touches_.push_back({which, missing, d.normal});
+  }
+}
+
+/// The row of a wall at a point of it; -1 if there is none (outside the grid).
+template <int dim>
+int WallContact<dim>::row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal) const {
+  const StructuredGrid<dim>& grid = space_->grid();
+  MultiIndex<dim> index;
+  for (int d = 0; d < dim; ++d) index[d] = grid.locate(d, x[d] + nudge * grid.shortest_side() * normal[d]);
+  if (!space_->window().contains_cell(index)) return -1;
+  const int cell = space_->window().cell_index(index);
+  const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(first_row_[at(wall) + 1]);
+  auto row = std::lower_bound(rows_.begin() + static_cast<std::ptrdiff_t>(first_row_[at(wall)]), end, cell,
+                              [](const WallRow<dim>& r, int c) { return r.cell < c; });
+  int best = -1;
+  double most = -2.0;
+  for (; row != end && row->cell == cell; ++row)
+    if (const double c = row->normal.dot(normal); c > most)
+      most = c, best = static_cast<int>(row - rows_.begin());
+  return best;
+}
+
+template <int dim>
+void WallContact<dim>::choose_rows(double t, double dt) {
+  live_.clear();
+  const double h = space_->grid().shortest_side();
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const double gap = gap_[r];
+    if (gap > h) continue;
+    const WallRow<dim>& row = rows_[r];
+    const auto& wall = walls_[at(row.wall)];
+    const bool reached = gap <= held_gap * h;
+    Live live;
+    live.row = static_cast<int>(r);
+    live.normal = row.normal;
+    live.normal_held = wall.holds_normal();
+    live.pushes = wall.unilateral() || !reached;
+    live.tangent_held = wall.holds_tangent() && (reached || wall.unilateral());
+    live.slips = wall.slips();
+    live.friction = wall.options().friction;
+    if (!live.normal_held && !live.tangent_held) continue;
+    live.bias = live.pushes ? -std::max(gap, 0.0) / dt : 0.0;
+    live.target = wall.motion().moves() ? Vec<dim>(wall.motion().increment(row.middle, t, dt) / dt)
+                                        : Vec<dim>(Vec<dim>::Zero());
+    live.target += wall.prescribed(row.normal, t, dt);
+    live_.push_back(live);
+  }
+}
+
+template struct ContactWall<2>;
+template struct ContactWall<3>;
+template class WallContact<2>;
+template class WallContact<3>;
+
+}  // namespace wisp

@@ -1,0 +1,179 @@
+// Walls in explicit dynamics: impulses on the grid's velocity, found together for all walls of a step.
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "basis/space.h"
+#include "boundary/wall.h"
+#include "boundary/wall_rows.h"
+#include "particle/body.h"
+
+namespace wisp {
+
+/// A wall as explicit steps see it.
+template <int dim>
+struct ContactWall : Wall<dim> {
+  explicit ContactWall(const Wall<dim>& wall) : Wall<dim>(wall) {}
+
+  bool holds_normal() const { return this->options().kind != WallKind::tangential; }
+  bool holds_tangent() const {
+    return this->options().kind != WallKind::roller || this->options().friction > 0.0;
+  }
+  /// Only pushes. Then friction bounds the tangential impulse, or, where nothing slips, the touch itself.
+  bool unilateral() const { return this->options().unilateral && holds_normal(); }
+  bool slips() const { return this->options().kind == WallKind::roller; }
+  /// Velocity (m/s) over a step that the wall prescribes besides its rigid motion, n its normal.
+  Vec<dim> prescribed(const Vec<dim>& n, double t, double dt) const;
+};
+
+/// The masses of one step: what an impulse does to the velocity of the functions.
+struct StepMass {
+  std::span<const double> sums;  ///< n_functions x stride, the lumped mass first
+  int stride = 0;
+  std::span<const char> fixed;  ///< n_functions x dim flags of held unknowns, or empty
+  /// Consistent mass: solves M dv = b (both n_functions x dim), dv = 0 where held. Empty: lumped.
+  std::function<void(std::span<const double> b, std::span<double> dv)> solve;
+};
+
+/// What a wall did to the bodies in a step.
+template <int dim>
+struct WallReaction {
+  Vec<dim> force = Vec<dim>::Zero();         ///< N
+  Moment<dim> moment = Moment<dim>::Zero();  ///< N m (2D: N), about the centre of the wall's motion
+};
+
+/// Walls as projections of the velocity, so that the critical time step stays that of the free body.
+///
+/// Impulses lambda_r on the rows w_r = sum_i C_ri v_i (wall_rows.h) change the velocity by M^-1 C^T lambda.
+/// One projected Gauss-Seidel iteration over the rows of all walls finds those that make every row's velocity
+/// admissible: with u = w - (velocity of the wall), u_n >= -max(gap, 0)/dt and lambda_n >= 0 where a wall
+/// only pushes, u_n = 0 where it holds, |lambda_t| <= friction lambda_n where it rubs. They are the only
+/// change of momentum. The velocity that strains the points is projected a second time, on the rows with an
+/// impulse, without touching momentum. docs/theory/walls-explicit.md derives it and says what does not work.
+///
+/// Nothing is carried from step to step, so that a resumed run gives the same bits.
+template <int dim>
+class WallContact {
+ public:
+  /// `space` must outlive it. Errors (InputError): a wall wholly outside the grid, more than one rank.
+  WallContact(const std::vector<Wall<dim>>& walls, const Space<dim>& space);
+
+  bool empty() const { return walls_.empty(); }
+
+  /// Before the velocities of a step from t to t + dt: cuts walls that move, finds points near walls and the
+  /// gap of every row. Points must have their cells (`locate`).
+  void find(const std::vector<Body<dim>>& bodies, double t, double dt);
+
+  /// Takes the velocity that the step would end with, `velocity` + dt `acceleration` (n_functions x dim), and
+  /// adds to `acceleration` what the walls' impulses do.
+  void correct_velocity(const StepMass& mass, std::span<const double> velocity, double dt,
+                        std::span<double> acceleration);
+
+  /// Adds the impulses over dt, C^T lambda/dt, to `force` (n_functions x dim).
+  void add_force(double dt, std::span<double> force) const;
+
+  /// Projects the velocity that strains the points (n_functions x dim) on the rows that carry an impulse: the
+  /// normal part, the tangential one where it sticks. `alone`: the step's impulses are not known yet (USF)
+  /// and the rows decide by this velocity.
+  void correct_strain_velocity(const StepMass& mass, std::span<double> velocity, bool alone = false);
+
+  /// For USL with linear functions: those lighter than 0.05 of a full cell take in `motion` (n_functions x
+  /// stride, velocity and acceleration) the velocity of the momentum that the points will have at the end of
+  /// the step, projected where rows carry an impulse. The points' velocity is then theirs plus dt times the
+  /// acceleration (FLIP); with dt = 0 as it is.
+  void calm_light_functions(const std::vector<Body<dim>>& bodies, const StepMass& mass, double dt,
+                            std::span<double> motion, int stride);
+
+  /// After the points have moved: those too close to a wall go back by a tenth of what is missing; with
+  /// domains the velocities around loaded rows are blended by a tenth towards the grid's, momentum unchanged.
+  void correct_points(std::vector<Body<dim>>& bodies);
+
+  /// Of the last step, one a wall.
+  const std::vector<WallReaction<dim>>& reactions() const { return reactions_; }
+  /// Work (J) of the walls on the bodies in the last step, by the end-of-step velocity like all other work.
+  double work() const { return work_; }
+  /// Rows that took part in the last step, and sweeps that their impulses took.
+  int n_rows() const { return static_cast<int>(live_.size()); }
+  int sweeps() const { return sweeps_; }
+
+ private:
+  struct PointOf {
+    int body, point;
+  };
+  struct Touch {
+    PointOf at;
+    double missing;  ///< m, how much too close; negative: too far from a wall that holds
+    Vec<dim> normal;
+  };
+  /// A row of the step.
+  struct Live {
+    int row = 0;
+    std::array<int, WallRow<dim>::n> slot{};       ///< of its functions in `value_`
+    std::array<double, WallRow<dim>::n> weight{};  ///< over functions with mass, sum one
+    Vec<dim> normal, target;                       ///< target: velocity of the wall
+    double bias = 0.0;                             ///< least u_n
+    bool normal_held = false, tangent_held = false, pushes = false, slips = false, sticks = false;
+    double friction = 0.0;
+    Vec<dim> diagonal;  ///< of C M^-1 C^T, one a direction
+    double lambda_n = 0.0;
+    Vec<dim> lambda_t = Vec<dim>::Zero();
+
+    Vec<dim> impulse() const { return lambda_n * normal + lambda_t; }
+    bool loaded() const { return lambda_n != 0.0 || !lambda_t.isZero(0.0); }
+  };
+
+  // wall_contact.cpp: geometry of a step
+  void cut_walls(double t);
+  void mark_cells();
+  void touch(const Body<dim>& body, PointOf at, double t);
+  int row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal) const;
+  void choose_rows(double t, double dt);
+  // wall_impulses.cpp: velocities
+  void take_functions(const StepMass& mass);
+  void couple(const StepMass& mass);
+  Vec<dim> row_velocity(const Live& live) const;
+  void push(std::size_t r, const Vec<dim>& impulse);
+  void iterate();
+  void project();
+  void solve_normal(std::size_t r, double& change);
+  void solve_tangent(std::size_t r, double& change);
+  void set_reactions(double dt);
+  void spread(const StepMass& mass, std::span<const Vec<dim>> impulses, std::span<double> change);
+  // wall_points.cpp: points
+  template <class F>
+  void for_each_near_stencil(const std::vector<Body<dim>>& bodies, F&& f) const;
+  void blend(std::vector<Body<dim>>& bodies);
+  void find_light_functions(const StepMass& mass, double light);
+
+  std::vector<ContactWall<dim>> walls_;
+  const Space<dim>* space_;
+  WallCutter<dim> cutter_;
+  bool any_moves_ = false;
+  std::vector<std::vector<WallPiece<dim>>> pieces_;  // at rest
+  std::vector<WallRow<dim>> rows_;                   // sorted by wall and cell
+  std::vector<std::size_t> first_row_;               // one a wall, and the end
+  std::vector<char> near_;                           // cells that a point near a wall can be in
+  std::vector<int> near_cells_;
+  std::vector<double> gap_;  // one a row
+  std::vector<PointOf> points_;
+  std::vector<Touch> touches_;
+  std::vector<Live> live_;
+  std::vector<int> slot_, functions_;             // slots of functions (-1: none), and back
+  std::vector<double> value_, inverse_, before_;  // over slots x dim: velocity, inverse mass, velocity before
+  std::vector<double> momentum_;                  // over slots or light functions
+  std::vector<int> light_functions_, light_number_, light_cells_;
+  std::vector<char> light_cell_;
+  std::vector<char> loaded_;                            // over slots: of a row with an impulse
+  std::vector<Vec<dim>> row_values_, impulses_;         // consistent mass: velocities and impulses of rows
+  std::vector<double> right_side_, solved_, coupling_;  // consistent mass; coupling_: rows x rows x dim
+  bool consistent_ = false;
+  std::vector<WallReaction<dim>> reactions_;
+  double time_ = 0.0, work_ = 0.0;
+  int sweeps_ = 0;
+};
+
+extern template class WallContact<2>;
+extern template class WallContact<3>;
+
+}  // namespace wisp

@@ -1,0 +1,153 @@
+// What walls do to the points near them.
+#include <algorithm>
+#include <cmath>
+
+#include "boundary/wall_contact.h"
+
+namespace wisp {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double return_share = 0.1;  // of what a point is too close by, a step
+constexpr double blend_share = 0.1;   // of the difference to the grid's velocity, a step
+constexpr double light_share = 0.05;  // of the mass of a full cell
+
+}  // namespace
+
+/// Calls f(points, p, stencil) for every point near a wall.
+template <int dim>
+template <class F>
+void WallContact<dim>::for_each_near_stencil(const std::vector<Body<dim>>& bodies, F&& f) const {
+  std::visit(
+      [&](const auto& basis) {
+        using Basis = std::decay_t<decltype(basis)>;
+        const Vec<dim> none = Vec<dim>::Zero();
+        for (const PointOf& which : points_) {
+          const Particles<dim>& points = bodies[at(which.body)].points;
+          const auto p = at(which.point);
+          f(which, points, p,
+            basis.tabulate(points.position[p], Basis::uses_domains ? points.half_length[p] : none));
+        }
+      },
+      space_->basis());
+}
+
+/// Functions lighter than `light` get numbers; the cells around them are marked.
+template <int dim>
+void WallContact<dim>::find_light_functions(const StepMass& mass, double light) {
+  const auto& window = space_->window();
+  for (const int f : light_functions_) light_number_[at(f)] = -1;
+  for (const int c : light_cells_) light_cell_[at(c)] = 0;
+  light_functions_.clear();
+  light_cells_.clear();
+  light_number_.resize(slot_.size(), -1);
+  light_cell_.resize(at(window.n_cells()), 0);
+  for (std::size_t f = 0; f < slot_.size(); ++f) {
+    const double m = mass.sums[f * at(mass.stride)];
+    if (!(m > 0.0) || m >= light) continue;
+    light_number_[f] = static_cast<int>(light_functions_.size());
+    light_functions_.push_back(static_cast<int>(f));
+    const MultiIndex<dim> node = window.node_multi_index(static_cast<int>(f));
+    for_each_in(IndexBox<dim>{node - MultiIndex<dim>::Ones(), node + MultiIndex<dim>::Ones()},
+                [&](const MultiIndex<dim>& cell) {
+                  if (!window.contains_cell(cell)) return;
+                  const int c = window.cell_index(cell);
+                  if (!light_cell_[at(c)]) light_cell_[at(c)] = 1, light_cells_.push_back(c);
+                });
+  }
+}
+
+template <int dim>
+void WallContact<dim>::calm_light_functions(const std::vector<Body<dim>>& bodies, const StepMass& mass,
+                                            double dt, std::span<double> motion, int stride) {
+  double density = 0.0;
+  for (const auto& body : bodies) density = std::max(density, body.density());
+  find_light_functions(mass, light_share * density * std::pow(space_->grid().shortest_side(), dim));
+  if (light_functions_.empty()) return;
+  momentum_.assign(light_functions_.size() * dim, 0.0);
+  std::visit(
+      [&](const auto& basis) {
+        for (const auto& body : bodies) {
+          const Particles<dim>& points = body.points;
+          for (std::size_t p = 0; p < points.position.size(); ++p) {
+            if (!light_cell_[at(points.cell[p])]) continue;
+            const auto stencil = basis.tabulate(points.position[p], Vec<dim>::Zero());
+            Vec<dim> v = points.velocity[p];
+            stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
+              for (int d = 0; d < dim; ++d) v[d] += dt * phi * motion[at(i) * at(stride) + at(dim + d)];
+            });
+            stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
+              if (const int k = light_number_[at(i)]; k >= 0)
+                for (int d = 0; d < dim; ++d) momentum_[at(k) * dim + at(d)] += phi * points.mass[p] * v[d];
+            });
+          }
+        }
+      },
+      space_->basis());
+  for (std::size_t k = 0; k < light_functions_.size(); ++k) {
+    const auto f = at(light_functions_[k]);
+    const double m = mass.sums[f * at(mass.stride)];
+    for (std::size_t d = 0; d < dim; ++d)
+      if (mass.fixed.empty() || !mass.fixed[f * dim + d])
+        motion[f * at(stride) + d] = momentum_[k * dim + d] / m;
+  }
+  if (live_.empty()) return;
+  for (std::size_t k = 0; k < functions_.size(); ++k)
+    for (std::size_t d = 0; d < dim; ++d) value_[k * dim + d] = motion[at(functions_[k]) * at(stride) + d];
+  project();
+  for (std::size_t k = 0; k < functions_.size(); ++k)
+    for (std::size_t d = 0; d < dim; ++d) motion[at(functions_[k]) * at(stride) + d] = value_[k * dim + d];
+}
+
+template <int dim>
+void WallContact<dim>::correct_points(std::vector<Body<dim>>& bodies) {
+  if (space_->domains()) blend(bodies);
+  for (const Touch& touch : touches_) {
+    Particles<dim>& points = bodies[at(touch.at.body)].points;
+    const Vec<dim> move = return_share * touch.missing * touch.normal;
+    points.position[at(touch.at.point)] += move;
+    points.displacement[at(touch.at.point)] += move;
+  }
+}
+
+/// v_p += share sum_i phi_i (v_i - v_p) over the functions of loaded rows, v_i the mean of the same points:
+/// sum_p m_p phi_ip (v_i - v_p) = 0 for each function, so that momentum stays to rounding.
+template <int dim>
+void WallContact<dim>::blend(std::vector<Body<dim>>& bodies) {
+  loaded_.assign(functions_.size(), 0);
+  bool any = false;
+  for (const Live& live : live_)
+    if (live.loaded())
+      for (const int s : live.slot) loaded_[at(s)] = 1, any = true;
+  if (!any) return;
+  constexpr std::size_t stride = 1 + dim;
+  momentum_.assign(functions_.size() * stride, 0.0);
+  for_each_near_stencil(
+      bodies, [&](const PointOf&, const Particles<dim>& points, std::size_t p, const auto& stencil) {
+        stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
+          const int s = slot_[at(i)];
+          if (s < 0 || !loaded_[at(s)]) return;
+          double* const sum = momentum_.data() + at(s) * stride;
+          sum[0] += phi * points.mass[p];
+          for (int d = 0; d < dim; ++d) sum[1 + d] += phi * points.mass[p] * points.velocity[p][d];
+        });
+      });
+  for_each_near_stencil(
+      bodies, [&](const PointOf& which, const Particles<dim>& points, std::size_t p, const auto& stencil) {
+        Vec<dim> change = Vec<dim>::Zero();
+        stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
+          const int s = slot_[at(i)];
+          if (s < 0 || !loaded_[at(s)]) return;
+          const double* const sum = momentum_.data() + at(s) * stride;
+          if (sum[0] > 0.0)
+            for (int d = 0; d < dim; ++d) change[d] += phi * (sum[1 + d] / sum[0] - points.velocity[p][d]);
+        });
+        bodies[at(which.body)].points.velocity[p] += blend_share * change;
+      });
+}
+
+template class WallContact<2>;
+template class WallContact<3>;
+
+}  // namespace wisp
