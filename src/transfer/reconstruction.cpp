@@ -209,7 +209,6 @@ void add_reconstruction(const Space<dim>& space, const std::vector<Body<dim>>& b
     std::visit(
         [&](const auto& basis, const auto& group) {
           using Basis = std::decay_t<decltype(basis)>;
-          using Law = std::decay_t<decltype(group.law)>;
           if constexpr (!Basis::uses_domains) {
             Fit<dim> fit;
             const Vec<dim> none = Vec<dim>::Zero();
