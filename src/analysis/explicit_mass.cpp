@@ -46,16 +46,16 @@ void Explicit<dim>::assemble_mass() {
       std::move(lumped), boundary);
 }
 
-/// The projected step needs no velocity at its start but for what asks for one: the last projection is at hand.
-/// With a lumped mass it is found on the way.
+/// The projected step needs no velocity at its start but for what asks for one: the last projection is at
+/// hand. With a lumped mass it is found on the way.
 template <int dim>
 bool Explicit<dim>::needs_start_velocity(bool recorded) const {
   if (options_.stress_update == StressUpdate::usf) return true;
   if (!consistent_) return false;
   const auto n = static_cast<std::size_t>(model_.space->n_functions()) * dim;
   return options_.stress_update != StressUpdate::projected || recorded || !walls_.empty() ||
-         options_.velocity_update != VelocityUpdate::flip || options_.pic_fraction > 0 || options_.damping > 0 ||
-         velocity_.size() != n;
+         options_.velocity_update != VelocityUpdate::flip || options_.pic_fraction > 0 ||
+         options_.damping > 0 || velocity_.size() != n;
 }
 
 /// Sets the velocity of held unknowns to that at time t.
@@ -122,8 +122,8 @@ void Explicit<dim>::solve_acceleration(double dt) {
         model_.step, model_.time, report.cause);
 }
 
-/// The second map: velocity of the points just found, by the functions and the mass of this step. The projected
-/// step also moves the points by it (de Koster et al. 2021; thesis, eq. 2.37-2.39).
+/// The second map: velocity of the points just found, by the functions and the mass of this step. The
+/// projected step also moves the points by it (de Koster et al. 2021; thesis, eq. 2.37-2.39).
 template <int dim>
 void Explicit<dim>::map_again(double dt) {
   {

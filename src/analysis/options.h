@@ -24,8 +24,8 @@ inline constexpr auto choices<VelocityUpdate> = choice_list<VelocityUpdate>({{"f
 
 enum class Integration { points, reconstructed };
 template <>
-inline constexpr auto choices<Integration> =
-    choice_list<Integration>({{"points", Integration::points}, {"reconstructed", Integration::reconstructed}});
+inline constexpr auto choices<Integration> = choice_list<Integration>(
+    {{"points", Integration::points}, {"reconstructed", Integration::reconstructed}});
 
 struct ExplicitOptions {
   double duration = 1.0;
@@ -46,7 +46,7 @@ struct ExplicitOptions {
       "Explicit dynamics, Euler-Cromer; lumped, consistent or approximately consistent mass";
   static constexpr std::string_view source =
       "Coombs 2023, eq. 4-11; Bardenhagen 2002; Jiang et al. 2015 (APIC); de Koster et al. 2021 (projected, "
-      "partial); Nairn and Hammerquist 2021 (FMPM)";
+      "partial); Nairn and Hammerquist 2021 (FMPM); Wobbes et al. 2019 (reconstructed)";
   static constexpr auto keys() {
     using O = ExplicitOptions;
     return std::tuple{
@@ -73,7 +73,8 @@ struct ExplicitOptions {
             .at_least(0)
             .at_most(1),
         key("integration", &O::integration, "",
-            "internal forces by the points, or in filled cells by Gauss points of the stress reconstructed there"),
+            "internal forces by the points, or in filled cells by Gauss points of the stress reconstructed "
+            "there"),
         key("damping", &O::damping, "-",
             "local non-viscous damping: share of the out-of-balance force against the velocity")
             .at_least(0)
