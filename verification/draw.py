@@ -1,11 +1,14 @@
-"""Draws the data of a figure, FILE.csv, into FILE.png: curves over the first column, or points coloured by the third."""
+"""Draws the data of a figure, FILE.csv, into FILE.png: curves over the first column, points coloured by the third, line
+segments, or surfaces over the first two."""
 import argparse
 import csv
 import os
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d import Axes3D  # noqa: F401, makes the projection "3d" known
 
 
 def read(path):
@@ -22,6 +25,9 @@ def curves(figure, titles, data):
     x, columns = data[:, 0], data[:, 1:]
     positive = columns[np.isfinite(columns) & (columns > 0)]
     if positive.size and np.nanmin(columns) > 0 and positive.max() > 1e3 * positive.min():
+        axes.set_yscale("log")
+    if len(x) > 2 and x.min() > 0 and np.allclose(x[1:] / x[:-1], x[1] / x[0]):
+        axes.set_xscale("log")  # a sequence of refinements
         axes.set_yscale("log")
     for title, values in zip(titles[1:], columns.T):
         known = np.isfinite(values)  # a curve may have fewer points than the others
@@ -49,17 +55,52 @@ def points(figure, titles, data):
     return len(names)
 
 
+def segments(figure, titles, data):
+    axes = figure.add_subplot()
+    styles = {0: ("#30363d", 1.1, "grid"), 1: ("#9aa4ae", 0.6, "split"), 2: ("#c0392b", 0.9, "control triangles")}
+    for kind, (color, width, label) in styles.items():
+        chosen = data[data[:, 4] == kind]
+        lines = chosen[:, :4].reshape(-1, 2, 2)
+        axes.add_collection(LineCollection(lines, colors=color, linewidths=width, label=label))
+    axes.autoscale()
+    axes.set_aspect("equal")
+    axes.legend(frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
+def surface(figure, titles, data):
+    panel = data[:, 3] if data.shape[1] > 3 else np.zeros(len(data))
+    names = np.unique(panel)
+    columns = min(len(names), 3 if len(names) == 3 else 2)
+    rows = -(-len(names) // columns)
+    for k, name in enumerate(names):
+        axes = figure.add_subplot(rows, columns, k + 1, projection="3d")
+        chosen = data[panel == name]
+        axes.plot_trisurf(chosen[:, 0], chosen[:, 1], chosen[:, 2], cmap="viridis", linewidth=0)
+        if len(names) > 1:
+            axes.set_title(f"{titles[3]} {name:g}", fontsize=9)
+        axes.tick_params(labelsize=7)
+    return columns, rows
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("file")
     parser.add_argument("--title", default="")
     parser.add_argument("--points", action="store_true")
+    parser.add_argument("--segments", action="store_true")
+    parser.add_argument("--surface", action="store_true")
     given = parser.parse_args()
     titles, data = read(given.file)
     figure = Figure(figsize=(7.0, 4.2))
     FigureCanvasAgg(figure)
     if given.points:
         figure.set_size_inches(3.6 * points(figure, titles, data), 4.4)
+    elif given.segments:
+        figure.set_size_inches(6.0, 4.8)
+        segments(figure, titles, data)
+    elif given.surface:
+        columns, rows = surface(figure, titles, data)
+        figure.set_size_inches(3.6 * columns, 3.4 * rows + 0.4)
     else:
         curves(figure, titles, data)
     figure.suptitle(given.title, fontsize=10)

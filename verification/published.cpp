@@ -28,10 +28,10 @@ std::optional<double> leading_number(std::string_view text) {
 }
 
 /// A figure without a picture is still a figure: data come first, so trouble here is told and no more.
-void draw(const std::filesystem::path& csv, const std::string& title, bool points) {
+void draw(const std::filesystem::path& csv, const std::string& title, const char* kind) {
   std::vector<std::string> words{WISP_PYTHON, verification_file("draw.py").string(), csv.string(), "--title",
                                  title};
-  if (points) words.emplace_back("--points");
+  if (kind) words.emplace_back(kind);
   std::vector<char*> argv;
   for (auto& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -43,7 +43,7 @@ void draw(const std::filesystem::path& csv, const std::string& title, bool point
 }
 
 void write_figure(const std::filesystem::path& folder, const std::string& name, const std::string& title,
-                  const std::vector<FigureColumn>& columns, bool points) {
+                  const std::vector<FigureColumn>& columns, const char* kind) {
   if (Session::rank() != 0) return;
   std::string text;
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -59,7 +59,7 @@ void write_figure(const std::filesystem::path& folder, const std::string& name, 
   }
   const auto csv = folder / (name + ".csv");
   write_atomically(csv, text);
-  draw(csv, title, points);
+  draw(csv, title, kind);
 }
 
 }  // namespace
@@ -97,12 +97,22 @@ std::optional<double> Published::at(const std::vector<std::string>& row, std::st
 
 void write_curves(const std::filesystem::path& folder, const std::string& name, const std::string& title,
                   const std::vector<FigureColumn>& columns) {
-  write_figure(folder, name, title, columns, false);
+  write_figure(folder, name, title, columns, nullptr);
 }
 
 void write_points(const std::filesystem::path& folder, const std::string& name, const std::string& title,
                   const std::vector<FigureColumn>& columns) {
-  write_figure(folder, name, title, columns, true);
+  write_figure(folder, name, title, columns, "--points");
+}
+
+void write_segments(const std::filesystem::path& folder, const std::string& name, const std::string& title,
+                    const std::vector<FigureColumn>& columns) {
+  write_figure(folder, name, title, columns, "--segments");
+}
+
+void write_surface(const std::filesystem::path& folder, const std::string& name, const std::string& title,
+                   const std::vector<FigureColumn>& columns) {
+  write_figure(folder, name, title, columns, "--surface");
 }
 
 }  // namespace wisp

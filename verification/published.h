@@ -46,4 +46,13 @@ void write_curves(const std::filesystem::path& folder, const std::string& name, 
 void write_points(const std::filesystem::path& folder, const std::string& name, const std::string& title,
                   const std::vector<FigureColumn>& columns);
 
+/// The same for line segments in the plane: columns x0, y0, x1, y1 and the kind of each (0: grid, 1: split,
+/// 2: control triangle), which gives its style.
+void write_segments(const std::filesystem::path& folder, const std::string& name, const std::string& title,
+                    const std::vector<FigureColumn>& columns);
+
+/// The same for surfaces over the plane: columns x, y, height and, optionally, the number of the panel.
+void write_surface(const std::filesystem::path& folder, const std::string& name, const std::string& title,
+                   const std::vector<FigureColumn>& columns);
+
 }  // namespace wisp

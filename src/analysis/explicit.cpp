@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "transfer/active.h"
 #include "transfer/explicit_transfer.h"
+#include "transfer/mass.h"
 #include "transfer/reconstruction.h"
 
 namespace wisp {
@@ -86,95 +87,6 @@ void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
-/// Motion of the points' functions from velocity and acceleration (eq. 11).
-template <int dim>
-void Explicit<dim>::set_motion(double dt) {
-  const auto n = static_cast<std::size_t>(model_.space->n_functions());
-  motion_.resize(n * motion_stride<dim>);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t d = 0; d < dim; ++d) {
-      const double a = acceleration_[i * dim + d], v = velocity_[i * dim + d] + dt * a;
-      motion_[i * motion_stride<dim> + d] = v, motion_[i * motion_stride<dim> + dim + d] = a;
-      sum += v * v + a * a;
-    }
-  check_finite(sum);
-}
-
-/// Everything between the sums and the motion with a lumped mass, in one pass over the functions (Coombs
-/// 2023, eq. 10 and 11): a function's numbers are read and written once.
-template <int dim>
-void Explicit<dim>::advance_lumped(double dt) {
-  const auto n = static_cast<std::size_t>(model_.space->n_functions());
-  auto& constraints = model_.constraints;
-  velocity_.resize(n * dim), acceleration_.resize(n * dim), right_side_.resize(n * dim);
-  motion_.resize(n * motion_stride<dim>);
-  const double* const sums = sums_.data();
-  const double* const loads = loads_.empty() ? nullptr : loads_.data();
-  double* const velocity = velocity_.data();
-  double* const acceleration = acceleration_.data();
-  double* const force = right_side_.data();
-  double* const motion = motion_.data();
-  const double damping = options_.damping;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double* const s = sums + i * sums_stride<dim>;
-    const double per_mass = s[0] > 0 ? 1.0 / s[0] : 0.0;
-    double squares = 0.0;
-    for (std::size_t d = 0; d < dim; ++d) {
-      const std::size_t k = i * dim + d;
-      const double v = s[1 + d] * per_mass;
-      double f = s[1 + dim + d];
-      if (loads) f += loads[k];
-      if (damping > 0) f -= damped(damping, f, v);
-      const double a = f * per_mass, end = v + dt * a;
-      velocity[k] = v, acceleration[k] = a, force[k] = f;
-      motion[i * motion_stride<dim> + d] = end, motion[i * motion_stride<dim> + dim + d] = a;
-      squares += end * end + a * a;
-    }
-    sum += squares;
-  }
-  prescribe(model_.time, velocity_);
-  if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
-  for (const std::size_t k : constraints.held) {
-    // The force of an unknown that is held by a velocity is damped by that velocity.
-    if (damping > 0) {
-      const double f = sums[k / dim * sums_stride<dim> + 1 + dim + k % dim] + (loads ? loads[k] : 0.0);
-      force[k] = f - damped(damping, f, velocity[k]);
-    }
-    const double end = constraints.prescribed(k), a = (end - velocity[k]) / dt;
-    acceleration[k] = a;
-    double* const m = motion + k / dim * motion_stride<dim> + k % dim;
-    m[0] = velocity[k] + dt * a, m[dim] = a;
-    sum += m[0] * m[0] + a * a;
-  }
-  check_finite(sum);
-}
-
-/// R = M a - f at a held unknown.
-template <int dim>
-double Explicit<dim>::reaction(std::size_t k) const {
-  return (consistent_ ? inertia_[k] : sums_[k / dim * sums_stride<dim>] * acceleration_[k]) - right_side_[k];
-}
-
-/// Reactions R = M a - f of held unknowns.
-template <int dim>
-void Explicit<dim>::find_reactions() {
-  if (!model_.constraints.any) return;
-  if (consistent_) {
-    inertia_.resize(acceleration_.size());
-    mass_.multiply_columns(acceleration_, inertia_, dim);
-    model_.space->nodes().add(inertia_.data(), dim);
-  }
-  for (auto& r : model_.reactions) r.setZero();
-  for (const std::size_t k : model_.constraints.held)
-    if (model_.space->nodes().owns(static_cast<int>(k / dim)))
-      model_
-          .reactions[static_cast<std::size_t>(model_.constraints.condition[k])][static_cast<int>(k % dim)] +=
-          reaction(k);
-  for (auto& r : model_.reactions) r = Session::sum(r);
-}
-
 template <int dim>
 void Explicit<dim>::check_finite(double sum) const {
   if (!std::isfinite(Session::sum(sum)))
@@ -235,6 +147,24 @@ void Explicit<dim>::points(const PointUpdate& update) {
   for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
 }
 
+/// The second map: velocity of the points just found, by the functions and the mass of this step (de Koster
+/// et al. 2021; thesis, eq. 2.37).
+template <int dim>
+void Explicit<dim>::project_velocity(double dt) {
+  const auto timer = model_.timers.start(1);
+  gather(Gather::inertia);
+  // The solve starts from the velocity just found, not from an array that a resumed run would not have.
+  strain_velocity_.resize(velocity_.size());
+  for (std::size_t k = 0; k < velocity_.size(); ++k)
+    strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
+  solve_velocity(model_.time + dt, strain_velocity_);
+  if (!walls_.empty()) correct_strain_velocity(false);
+  if (options_.stress_update != StressUpdate::projected) return;
+  velocity_ = strain_velocity_;
+  for (std::size_t i = 0; i < velocity_.size() / dim; ++i)
+    for (std::size_t d = 0; d < dim; ++d) motion_[i * motion_stride<dim> + d] = strain_velocity_[i * dim + d];
+}
+
 template <int dim>
 void Explicit<dim>::step(double dt, EnergyRecord* record) {
   dt_ = dt;
@@ -265,10 +195,14 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   {
     const auto timer = model_.timers.start(3);
-    if (needs_start_velocity(record != nullptr))
-      solve_velocity(model_.time, velocity_);
-    else if (consistent_)
+    // The projected step needs no velocity at its start but for what asks for one; the last projection is at
+    // hand.
+    const auto n = static_cast<std::size_t>(model_.space->n_functions()) * dim;
+    if (scheme == StressUpdate::projected && !record && !pic && options_.pic_fraction <= 0 &&
+        options_.damping <= 0 && velocity_.size() == n)
       prescribe(model_.time, velocity_);
+    else if (consistent_ || scheme == StressUpdate::usf)
+      solve_velocity(model_.time, velocity_);
   }
   if (scheme == StressUpdate::usf) {
     PointUpdate strain = update;
@@ -281,7 +215,7 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
       points(strain);
     }
     const auto timer = model_.timers.start(1);
-    gather(Gather::both, {velocity_, dt});
+    gather(Gather::both, options_.updated_gradients ? FollowedMotion{velocity_, dt} : FollowedMotion{});
   }
   {
     const auto timer = model_.timers.start(3);
@@ -296,20 +230,21 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   if (!walls_.empty()) record_walls();
   if (record) record_energy(*record);
-  points_changed_ = true;  // what loads mark on the bodies moves first
-  model_.move_loads(motion_, motion_stride<dim>, dt);
   update.motion = motion_;
   update.velocity = true;
-  if (scheme == StressUpdate::musl || scheme == StressUpdate::projected) {
+  const bool second_map = scheme == StressUpdate::musl || scheme == StressUpdate::projected;
+  if (second_map) {
     {
       const auto timer = model_.timers.start(4);
       points(update);
     }
-    map_again(dt);
+    project_velocity(dt);
     update.velocity = false, update.strain_velocity = strain_velocity_;
   } else if (scheme == StressUpdate::usl && !walls_.empty() && !model_.space->domains()) {
     calm_light_functions(update);
   }
+  points_changed_ |= !model_.loads.empty();
+  model_.move_loads(motion_, motion_stride<dim>, dt);
   update.move = true;
   update.strain = scheme != StressUpdate::usf;
   {

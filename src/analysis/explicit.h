@@ -10,12 +10,6 @@
 
 namespace wisp {
 
-/// What local non-viscous damping (Cundall 1987) takes from an out-of-balance force: a share of it, against
-/// the velocity.
-inline double damped(double share, double force, double velocity) {
-  return share * std::abs(force) * (velocity > 0 ? 1.0 : velocity < 0 ? -1.0 : 0.0);
-}
-
 /// One explicit stage: owns the order of the operations of a step, which are also the names of its timers.
 template <int dim>
 class Explicit {
@@ -52,22 +46,20 @@ class Explicit {
   void renew_solver();
 
  private:
-  // The mass, explicit_mass.cpp: assemble_mass, solves, map_again.
   void gather(Gather what, const FollowedMotion& followed = {});
   void assemble_mass();
-  bool needs_start_velocity(bool recorded) const;
+  void prescribe(double t, std::vector<double>& velocity);
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
   void set_motion(double dt);
   void advance_lumped(double dt);
-  void prescribe(double t, std::vector<double>& velocity);
   double reaction(std::size_t k) const;
   void find_reactions();
   void check_finite(double sum) const;
   void record_energy(EnergyRecord& record) const;
   void add_work(double dt);
   void points(const PointUpdate& update);
-  void map_again(double dt);
+  void project_velocity(double dt);
   // Walls, explicit_walls.cpp: their hooks in the order of a step.
   StepMass step_mass();
   void find_walls();

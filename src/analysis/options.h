@@ -36,6 +36,7 @@ struct ExplicitOptions {
   int fmpm_order = 4;
   double deactivate_below = 0.0;
   StressUpdate stress_update = StressUpdate::usl;
+  bool updated_gradients = false;
   VelocityUpdate velocity_update = VelocityUpdate::flip;
   double pic_fraction = 0.0;
   Integration integration = Integration::points;
@@ -68,6 +69,9 @@ struct ExplicitOptions {
             "stress first (usf), last (usl), or last after a second map of velocities (musl), which may also "
             "move "
             "the points and then is the only one (projected)"),
+        key("updated_gradients", &O::updated_gradients, "",
+            "usf: forces take gradients in the coordinates that the stress has moved to; keeps the energy at "
+            "first order in the time step, not the angular momentum"),
         key("velocity_update", &O::velocity_update, "", "how points get their velocity from the grid"),
         key("pic_fraction", &O::pic_fraction, "-", "blend: this share of PIC in the FLIP update")
             .at_least(0)

@@ -35,14 +35,15 @@ ExplicitSpectrum<dim>::ExplicitSpectrum(Model<dim>& model, Mass mass)
   }
   space.nodes().add_update(lumped_.data());
   const ActiveCells cells = active_cells(space, model.bodies);
-  std::vector<char> active = active_functions(space, cells);
+  std::vector<char> active = active_functions(space, ghost ? ghost_cells(space, cells, *ghost) : cells);
   if (!consistent_ || !ghost)
     for (std::size_t i = 0; i < active.size(); ++i) active[i] = lumped_[i] > 0.0;
   unknowns_ = DofMap(
       space.nodes(), dim, active,
       model.constraints.any ? std::span<const char>(model.constraints.fixed) : std::span<const char>());
   std::vector<GhostFacet> facets;
-  if (consistent_ && ghost) facets = ghost_facets(space, cells, model.bodies, held_edges(model.boundaries));
+  if (consistent_ && ghost)
+    facets = ghost_facets(space, cells, model.bodies, held_edges(model.boundaries), ghost->elements);
   mass_.begin_pattern(space.n_functions());
   add_point_pattern(space, model.bodies, mass_);
   add_ghost_pattern(space, facets, mass_);

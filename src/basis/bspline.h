@@ -8,7 +8,7 @@
 namespace wisp {
 
 /// B-splines of a degree on the lines of a structured grid, with open knot vectors: the grid's edge functions
-/// interpolate, the others sit between lines (thesis, section 3.4). Functions are numbered densely, x
+/// interpolate, the others sit between lines (de Koster 2018, section 3.4). Functions are numbered densely, x
 /// fastest, `n_functions(d)` a direction.
 template <int dim, int degree_>
 class BSpline {

@@ -6,7 +6,7 @@
 namespace wisp {
 
 /// Open knot vector over cells between increasing lines: the first and last line are repeated degree + 1
-/// times, an inner line as often as asked, which lowers the smoothness there (thesis, section 3.4).
+/// times, an inner line as often as asked, which lowers the smoothness there (de Koster 2018, section 3.4).
 class KnotVector {
  public:
   KnotVector() = default;
@@ -25,7 +25,7 @@ class KnotVector {
   double greville(int i) const;
 
   /// Values and derivatives (1/m) of the degree + 1 functions of a cell at x in it (Cox 1972; de Boor 1972;
-  /// thesis, eq. 3.13, 3.14). `p` is the vector's degree, known to the
+  /// de Koster 2018, eq. 3.13, 3.14). `p` is the vector's degree, known to the
   /// compiler.
   template <int p>
   inline __attribute__((always_inline)) void evaluate(int cell, double x, std::array<double, p + 1>& value,

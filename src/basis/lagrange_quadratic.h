@@ -5,8 +5,8 @@
 
 namespace wisp {
 
-/// Quadratic functions that are one at a vertex or in the middle of an edge (thesis, section 3.3). They are
-/// negative in places and kinked across edges: the reason for Powell–Sabin splines, kept to show it.
+/// Quadratic functions that are one at a vertex or in the middle of an edge (de Koster 2018, section 3.3).
+/// They are negative in places and kinked across edges: the reason for Powell–Sabin splines, kept to show it.
 /// Functions of vertices come first, then those of edges.
 class LagrangeQuadratic {
  public:

@@ -44,7 +44,7 @@ class PowellSabinSpline {
   const Vec<2>& control_point(int function) const {
     return control_points_[static_cast<std::size_t>(function)];
   }
-  /// Vertex function 3 v + q at its vertex: value, gradient (1/m); the triplet of the thesis, eq. 3.34.
+  /// Vertex function 3 v + q at its vertex: value, gradient (1/m); the triplet of de Koster 2018, eq. 3.34.
   ValueAndGradient triplet(int vertex, int q) const;
 
   /// Stencil at x, which must lie in the grid; `hint` is a triangle near x.

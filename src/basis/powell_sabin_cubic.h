@@ -35,7 +35,7 @@ struct CubicTerms {
 };
 
 /// The full space of C1 cubics on the split with a non-negative basis that sums to one (Grošelj and Speleers
-/// 2017; thesis, appendix A.3): three functions a vertex (3 v + q), two a corner of a triangle, two a
+/// 2017; de Koster 2018, appendix A.3): three functions a vertex (3 v + q), two a corner of a triangle, two a
 /// boundary edge.
 class PowellSabinCubic : public PowellSabinSpline<CubicTerms> {
  public:

@@ -5,7 +5,7 @@
 namespace wisp {
 
 /// Quadratic Bezier polynomials of a sub-triangle (V, R, Z) from the ordinates V, VZ and VR next to the
-/// corners (thesis, figure 3.22): c(R) = s VR + s' V'R, c(RZ) = s VZ + s' V'Z, c(Z) = sum a_i V_iZ.
+/// corners (de Koster 2018, figure 3.22): c(R) = s VR + s' V'R, c(RZ) = s VZ + s' V'Z, c(Z) = sum a_i V_iZ.
 struct QuadraticTerms {
   static constexpr int degree = 2, per_corner = 3, n_ordinates = 4;
   enum Ordinate { vv, vz, vr };  ///< vr: towards the split point of the edge, two of them
@@ -30,7 +30,7 @@ struct QuadraticTerms {
 };
 
 /// Three functions a vertex: number 3 v + q belongs to corner q of the control triangle of vertex v (Dierckx
-/// 1997; thesis, section 3.5).
+/// 1997; de Koster 2018, section 3.5).
 class PowellSabinQuadratic : public PowellSabinSpline<QuadraticTerms> {
  public:
   /// `triangulation` must outlive the basis.

@@ -8,15 +8,15 @@
 namespace wisp {
 namespace {
 
-std::vector<Ring> rings_from_list(const std::vector<std::vector<double>>& vertices) {
+Ring ring_from_list(const std::vector<std::vector<double>>& vertices, const std::string& label) {
   Ring ring;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (vertices[i].size() != 2)
-      input_error("polygon: vertex {} has {} {}, expected [x, y]", i + 1, vertices[i].size(),
+      input_error("polygon: {}vertex {} has {} {}, expected [x, y]", label, i + 1, vertices[i].size(),
                   vertices[i].size() == 1 ? "number" : "numbers");
     ring.emplace_back(vertices[i][0], vertices[i][1]);
   }
-  return {ring};
+  return ring;
 }
 
 /// Rows x,y after an optional header line "x,y"; `labels` says where each ring starts.
@@ -54,6 +54,8 @@ Outline outline(const Polygon& polygon, const std::filesystem::path& folder) {
   if (polygon.vertices.empty() == polygon.file.empty())
     input_error("polygon: expected either 'vertices' or 'file', found {}",
                 polygon.file.empty() ? "neither" : "both");
+  if (!polygon.holes.empty() && polygon.vertices.empty())
+    input_error("polygon: 'holes' belong to 'vertices'; a file has its holes after a blank line");
   if (!(polygon.scale > 0.0) || !std::isfinite(polygon.scale))
     input_error("polygon: 'scale' is {}, expected a positive finite number", polygon.scale);
   if (polygon.offset.size() != 2)
@@ -65,7 +67,13 @@ Outline outline(const Polygon& polygon, const std::filesystem::path& folder) {
   std::vector<Ring> rings;
   std::vector<std::string> labels;
   if (polygon.file.empty()) {
-    rings = rings_from_list(polygon.vertices);
+    rings.push_back(ring_from_list(polygon.vertices, ""));
+    for (std::size_t k = 0; k < polygon.holes.size(); ++k)
+      rings.push_back(ring_from_list(polygon.holes[k], fmt::format("hole {}: ", k + 1)));
+    if (!polygon.holes.empty()) {
+      labels.push_back("outer ring");
+      for (std::size_t k = 0; k < polygon.holes.size(); ++k) labels.push_back(fmt::format("hole {}", k + 1));
+    }
   } else {
     CsvFile file(folder / polygon.file);  // an absolute path replaces the folder
     origin = file.name();

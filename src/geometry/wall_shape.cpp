@@ -196,7 +196,8 @@ typename WallShape<dim>::Any WallShape<dim>::make(const AnyWallShape& shape,
         } else if constexpr (std::is_same_v<Options, PolylineWall>) {
           return polyline_surface(o);
         } else if constexpr (std::is_same_v<Options, PolygonWall>) {
-          const Outline rings = outline(Polygon{o.vertices, o.file, o.scale, o.offset}, folder);
+          const Outline rings = outline(
+              Polygon{.vertices = o.vertices, .file = o.file, .scale = o.scale, .offset = o.offset}, folder);
           return rings_surface(rings, o.solid == SolidSide::inside);
         } else if constexpr (std::is_same_v<Options, LevelSetWall>) {
           if (o.shapes.empty()) input_error("level-set: 'shapes' is empty, expected at least one shape");

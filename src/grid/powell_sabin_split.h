@@ -18,7 +18,7 @@ struct SplitPoint {
 };
 
 /// Inner points (incentres) and split points of edges. The split point of an inner edge lies on the line
-/// between the two inner points, that of a boundary edge in the middle (thesis, section 3.5.1).
+/// between the two inner points, that of a boundary edge in the middle (de Koster 2018, section 3.5.1).
 class PowellSabinSplit {
  public:
   explicit PowellSabinSplit(const Triangulation& triangulation);
@@ -91,7 +91,7 @@ struct ControlTriangleOptions {
 };
 
 /// Control triangles of all vertices for splines of `degree`: they contain the vertex V and V + (X -
-/// V)/degree for the split points X around it (thesis, section 3.5.2 and appendix A.3).
+/// V)/degree for the split points X around it (de Koster 2018, section 3.5.2 and appendix A.3).
 std::vector<ControlTriangle> control_triangles(const PowellSabinSplit& split, int degree,
                                                const ControlTriangleOptions& options = {});
 

@@ -191,7 +191,7 @@ class Checks {
 
   void sampling(const BodyOptions& body, std::size_t i) {
     const std::string path = place("body", i, "sampling");
-    for (const char* sampled : {"method", "points_per_cell", "divisions"})
+    for (const char* sampled : {"method", "points_per_cell", "divisions", "clip", "cuts"})
       if (std::holds_alternative<PointFile>(body.shape) && context_.given(path + "." + sampled))
         context_.fail_at(path, "the points come from a file: there is nothing to sample");
     const bool triangles = !std::holds_alternative<StructuredGridOptions>(case_.grid);
@@ -201,6 +201,16 @@ class Checks {
       context_.fail_at(path + ".volumes", "Voronoi volumes need a grid of triangles");
     if (triangles && body.sampling.method == SamplingMethod::gauss)
       context_.fail_at(path + ".method", "Gauss positions need a structured grid");
+    const bool cut = body.sampling.clip || !body.sampling.cuts.empty();
+    if (cut && std::holds_alternative<Ball>(body.shape))
+      context_.fail_at(path, "points cannot be cut at a ball; give a polygon (2D), or clip = false");
+    if (cut && triangles)
+      context_.fail_at(path, "points are cut on structured grids only; give volumes = \"voronoi\"");
+    for (std::size_t k = 0; k < body.sampling.cuts.size(); ++k)
+      if (body.sampling.cuts[k].size() != 2 * dim)
+        context_.fail_at(fmt::format("{}.cuts[{}]", path, k),
+                         fmt::format("expected {} numbers (a point and a normal), found {}", 2 * dim,
+                                     body.sampling.cuts[k].size()));
     const bool divided = body.sampling.method == SamplingMethod::divisions;
     if (divided && body.sampling.divisions.empty())
       context_.fail_at(path, "method \"divisions\" needs the key 'divisions'");
@@ -397,6 +407,8 @@ class Checks {
       context_.fail_at(at("integration"), "reconstruction needs points without domains, not basis 'gimp'");
     if (context_.given(at("pic_fraction")) && e.velocity_update != VelocityUpdate::flip)
       context_.fail_at(at("pic_fraction"), "only for velocity_update = \"flip\"");
+    if (e.updated_gradients && e.stress_update != StressUpdate::usf)
+      context_.fail_at(at("updated_gradients"), "only for stress_update = \"usf\"");
     const auto no_waves = [](const BodyOptions& b) { return !(p_wave_modulus(b.material) > 0.0); };
     if (!first && std::all_of(case_.bodies.begin(), case_.bodies.end(), no_waves))
       context_.fail_at(

@@ -45,12 +45,14 @@ struct WarmStart {
 template <int dim>
 class Run {
  public:
-  Run(const Case& c, const fs::path& folder, Talk talk)
+  /// `begun`: the case as it was when the history got its columns.
+  Run(const Case& c, const fs::path& folder, Talk talk, const Case& begun)
       : case_(c),
         folder_(folder),
         talk_(Session::rank() == 0 ? talk : Talk::quiet),
         model_(model_options(c)),
-        columns_(c, model_),
+        begun_(begun.file),
+        columns_(begun, model_),
         tracked_(c.output.track, model_) {}
 
   void start() {
@@ -190,6 +192,7 @@ class Run {
   fs::path folder_;
   Talk talk_;
   Model<dim> model_;
+  CaseSource begun_;
   HistoryColumns<dim> columns_;
   Tracked<dim> tracked_;
   std::optional<ResultsFolder> results_;
@@ -299,7 +302,7 @@ template <class Analysis>
 void Run<dim>::add_checkpoint(Analysis& analysis, bool stage_is_over) {
   Checkpoint checkpoint;
   store(model_, checkpoint);
-  store_case(case_.file, checkpoint);
+  store_case(case_.file, begun_, checkpoint);
   checkpoint.set_integer("stage", static_cast<std::int64_t>(stage_) + (stage_is_over ? 1 : 0));
   checkpoint.set_integer("step in stage", stage_is_over ? 0 : step_in_stage_);
   checkpoint.set_number("stage start", stage_start_);
@@ -440,7 +443,7 @@ void with_dimension(const Case& c, F&& f) {
 }  // namespace
 
 void run_case(const Case& c, const fs::path& folder, Talk talk) {
-  with_dimension(c, [&](auto dim) { Run<dim()>(c, folder, talk).start(); });
+  with_dimension(c, [&](auto dim) { Run<dim()>(c, folder, talk, c).start(); });
 }
 
 void resume_run(const fs::path& folder, const std::vector<std::string>& changes, Talk talk) {
@@ -453,9 +456,9 @@ void resume_run(const fs::path& folder, const std::vector<std::string>& changes,
       parts ? parts->read(0) : read_latest_checkpoint(folder, output_ranks(), &passed_over);
   if (talk == Talk::normal && Session::rank() == 0)
     for (const auto& reason : passed_over) fmt::print("passed over: {}\n", reason);
-  const Case c = stored_case(first, changes);
+  const Case c = stored_case(first, changes), begun = begun_case(first);
   with_dimension(c, [&](auto dim) {
-    Run<dim()>(c, folder, talk).resume(first, parts ? &*parts : nullptr, !changes.empty());
+    Run<dim()>(c, folder, talk, begun).resume(first, parts ? &*parts : nullptr, !changes.empty());
   });
 }
 

@@ -23,16 +23,24 @@ std::vector<std::string> split(const std::string& text) {
 
 }  // namespace
 
-void store_case(const CaseSource& source, Checkpoint& checkpoint) {
+void store_case(const CaseSource& source, const CaseSource& begun, Checkpoint& checkpoint) {
   checkpoint.case_text = source.text;
   checkpoint.set("case name", source.name);
   checkpoint.set("case folder", std::filesystem::absolute(source.folder).string());
-  checkpoint.set("case overrides", joined(source.overrides));
+  checkpoint.set("case overrides", joined(begun.overrides));
+  const auto first_change = source.overrides.begin() + static_cast<std::ptrdiff_t>(begun.overrides.size());
+  checkpoint.set("case changes", joined({first_change, source.overrides.end()}));
+}
+
+Case begun_case(const Checkpoint& checkpoint) {
+  return read_case(CaseSource{checkpoint.text("case name"), checkpoint.text("case folder"),
+                              checkpoint.case_text, split(checkpoint.text("case overrides"))});
 }
 
 Case stored_case(const Checkpoint& checkpoint, const std::vector<std::string>& changes) {
   auto overrides = split(checkpoint.text("case overrides"));
-  overrides.insert(overrides.end(), changes.begin(), changes.end());
+  for (const auto& list : {split(checkpoint.text("case changes")), changes})
+    overrides.insert(overrides.end(), list.begin(), list.end());
   return read_case(CaseSource{checkpoint.text("case name"), checkpoint.text("case folder"),
                               checkpoint.case_text, std::move(overrides)});
 }

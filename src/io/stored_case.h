@@ -8,7 +8,11 @@
 
 namespace wisp {
 
-void store_case(const CaseSource& source, Checkpoint& checkpoint);
+/// `begun`: the case when the run began; what stands behind its overrides in `source` are changes since.
+void store_case(const CaseSource& source, const CaseSource& begun, Checkpoint& checkpoint);
+
+/// The case when the run began, which its files follow.
+Case begun_case(const Checkpoint& checkpoint);
 
 /// The case that a checkpoint belongs to, with what shall be otherwise from now on ("key=value"). InputError.
 Case stored_case(const Checkpoint& checkpoint, const std::vector<std::string>& changes);

@@ -6,10 +6,22 @@
 namespace wisp {
 namespace {
 
+/// How often a word names a table or a type within a type.
+int count_within(const TypeText& type, const std::string& word) {
+  int count = 0;
+  for (const auto& key : type.keys) {
+    if (!key.tables.empty() && key.rules.name == word) ++count;
+    for (const auto& table : key.tables)
+      count += (key.is_variant && table.name == word) + count_within(table, word);
+  }
+  return count;
+}
+
 /// Writes one type and what is nested in it.
 class TemplateWriter {
  public:
-  TemplateWriter(const std::vector<std::string>& chosen, Sample sample) : chosen_(chosen), sample_(sample) {}
+  TemplateWriter(const TypeText& root, const std::vector<std::string>& chosen, Sample sample)
+      : root_(root), chosen_(chosen), sample_(sample) {}
 
   /// Keys of a table, plain ones first: in TOML a key after a sub-table would belong to that.
   void keys(const TypeText& type, const std::string& path, bool commented) {
@@ -69,6 +81,11 @@ class TemplateWriter {
   const TypeText& choose(const KeyText& key) const {
     for (const auto& type : key.tables)
       if (picked(type.name)) return type;
+    for (const auto& type : key.tables)  // a word that only has a meaning within one of them chooses that
+      for (const auto& word : chosen_)
+        if (key.is_variant && count_within(type, word) > 0 &&
+            count_within(type, word) == count_within(root_, word))
+          return type;
     return key.tables.front();
   }
 
@@ -89,6 +106,7 @@ class TemplateWriter {
     return "\"\"";
   }
 
+  const TypeText& root_;
   const std::vector<std::string>& chosen_;
   Sample sample_;
 };
@@ -96,7 +114,7 @@ class TemplateWriter {
 }  // namespace
 
 std::string template_text(const TypeText& root, const std::vector<std::string>& chosen, Sample sample) {
-  TemplateWriter writer(chosen, sample);
+  TemplateWriter writer(root, chosen, sample);
   writer.keys(root, "", false);
   return std::move(writer.text);
 }

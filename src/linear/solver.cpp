@@ -38,6 +38,22 @@ class OptionScope {
   OptionScope(const OptionScope&) = delete;
   OptionScope& operator=(const OptionScope&) = delete;
 
+  /// After a solve: PETSc ignores options that no part of it asks for, so a misspelt one would go unnoticed.
+  void check_used() const {
+    if (!options_) return;
+    PetscInt n = 0;
+    char **names = nullptr, **values = nullptr;
+    petsc(PetscOptionsLeftGet(options_, &n, &names, &values));
+    const std::string first = n > 0 ? names[0] : "";
+    petsc(PetscOptionsLeftRestore(options_, &n, &names, &values));
+    if (!first.empty())
+      input_error(
+          "petsc_options: nothing in the chosen solver reads \"-{}\"; check its spelling, and that the "
+          "solver "
+          "it belongs to is chosen (-ksp_type, -pc_type)",
+          first);
+  }
+
  private:
   PetscOptions options_ = nullptr;
 };
@@ -184,7 +200,8 @@ SolveReport LinearSolver::solve_once(const SystemMatrix& matrix, std::span<const
   petsc(MatGetSize(mat, &n_global, nullptr));
   if (n_global == 0) return report;
   const bool other_form = direct_ && !keep && symmetric_ != takes_as_symmetric(matrix);
-  if (!ksp_ || structure_ != matrix.structure() || other_form) {
+  const bool anew = !ksp_ || structure_ != matrix.structure() || other_form;
+  if (anew) {
     set_up(matrix);
     keep = false;
   }
@@ -207,6 +224,7 @@ SolveReport LinearSolver::solve_once(const SystemMatrix& matrix, std::span<const
     reset();
     return report;
   }
+  if (anew) scope.check_used();
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   petsc(KSPGetConvergedReason(ksp, &reason));

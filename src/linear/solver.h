@@ -27,7 +27,7 @@ struct SolverOptions {
   SolverKind solver = SolverKind::automatic;
   double tolerance = 1e-10;
   int max_iterations = 1000;
-  std::string petsc_options;
+  std::string petsc_options{};
 
   static constexpr auto keys() {
     return std::tuple{

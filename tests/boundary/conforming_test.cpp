@@ -29,7 +29,7 @@ TEST(Conforming, HoldsTheNodesOfALine) {
   for (const int i : wall.functions()) EXPECT_EQ(s.space->node_position(i)[0], 1.5);
   EXPECT_FALSE(wall.holds(0));
   EXPECT_TRUE(wall.holds(1));
-  EXPECT_EQ(held_edges<2>({wall}), (std::array<bool, 4>{}));
+  EXPECT_EQ(held_edges<2>({wall}).side, (std::array<bool, 4>{}));
 }
 
 TEST(Conforming, HoldsTheNodesOfAPlaneAndOfAPartOfIt) {
@@ -56,7 +56,7 @@ TEST(Conforming, HoldsASingleNode) {
   const Conforming<2> pin(o, *s.space);
   ASSERT_EQ(pin.functions().size(), 1U);
   EXPECT_EQ(s.space->node_position(pin.functions()[0]), Vec<2>(0.0, 4.0));
-  EXPECT_EQ(held_edges<2>({pin}), (std::array<bool, 4>{})) << "one node does not hold an edge";
+  EXPECT_EQ(held_edges<2>({pin}).side, (std::array<bool, 4>{})) << "one node does not hold an edge";
 }
 
 TEST(Conforming, IsPrescribedByDisplacement) {
@@ -94,7 +94,7 @@ TEST(Conforming, TheLastConditionWins) {
   EXPECT_EQ(c.condition[at(3, 0) + 1], 1);
   EXPECT_EQ(c.condition[at(3, 0)], -1);
   EXPECT_EQ(std::count(c.fixed.begin(), c.fixed.end(), 1), 8 + 8 + 7);
-  EXPECT_EQ(held_edges(conditions), (std::array<bool, 4>{true, false, true, false}));
+  EXPECT_EQ(held_edges(conditions).side, (std::array<bool, 4>{true, false, true, false}));
 }
 
 TEST(Conforming, WrongDescriptionsAreInputErrors) {

@@ -41,6 +41,15 @@ TEST(Region, PolygonIsScaledThenShifted) {
   EXPECT_TRUE(contains(triangle, Eigen::Vector2d(11, 21)));
 }
 
+TEST(Region, PolygonHasHolesInTheCase) {
+  const Polygon polygon{.vertices = {{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+                        .holes = {{{1, 1}, {2, 1}, {2, 2}, {1, 2}}}};
+  const auto frame = region<2>(AnyRegion(polygon));
+  EXPECT_DOUBLE_EQ(measure(frame), 15.0);
+  EXPECT_FALSE(contains(frame, Eigen::Vector2d(1.5, 1.5)));
+  EXPECT_TRUE(contains(frame, Eigen::Vector2d(3, 3)));
+}
+
 TEST(Region, PolygonFileWithHolesCommentsAndBothLineEndings) {
   const Scratch scratch;
   scratch.write("frame.csv",

@@ -101,15 +101,15 @@ TEST(ControlTriangle, ContainsThePowellSabinPoints) {
         }
 }
 
-TEST(ControlTriangle, TheLeastOneIsNeverLargerThanTheThesisOne) {
+TEST(ControlTriangle, TheLeastOneIsNeverLargerThanThatOfHullEdges) {
   int smaller = 0;
   for (const auto& mesh : meshes()) {
     const PowellSabinSplit split(mesh);
-    const auto thesis = control_triangles(split, 2, {ControlTriangleRule::hull_edges, true});
+    const auto by_edges = control_triangles(split, 2, {ControlTriangleRule::hull_edges, true});
     const auto least = control_triangles(split, 2, {ControlTriangleRule::minimum_area, true});
-    for (std::size_t v = 0; v < thesis.size(); ++v) {
-      EXPECT_LE(signed_area(least[v]), signed_area(thesis[v]) * (1.0 + 1e-8));
-      smaller += signed_area(least[v]) < 0.99 * signed_area(thesis[v]);
+    for (std::size_t v = 0; v < by_edges.size(); ++v) {
+      EXPECT_LE(signed_area(least[v]), signed_area(by_edges[v]) * (1.0 + 1e-8));
+      smaller += signed_area(least[v]) < 0.99 * signed_area(by_edges[v]);
     }
   }
   EXPECT_GT(smaller, 10);

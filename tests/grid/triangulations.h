@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "geometry/delaunay.h"
 #include "grid/triangulation.h"
 
 namespace wisp::grid_test {
@@ -81,6 +82,24 @@ inline Triangulation fan(int n, unsigned seed) {
   return Triangulation(vertices, triangles);
 }
 
+/// The unit square: the Delaunay triangulation of its corners, points on its sides and `n` inside, all at
+/// random but not closer than a distance that keeps triangles from getting too flat.
+inline Triangulation random_delaunay(int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double apart = 0.5 / std::sqrt(n);
+  std::vector<Vec<2>> points{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (int trial = 0; trial < 40 * n; ++trial) {
+    Vec<2> x(unit(random), unit(random));
+    const bool on_side = trial % 4 == 0;
+    if (on_side) x[trial / 4 % 2] = trial / 8 % 2;
+    bool close = !on_side && std::min(x.minCoeff(), 1.0 - x.maxCoeff()) < 0.5 * apart;
+    for (const auto& p : points) close = close || (p - x).norm() < apart;
+    if (!close) points.push_back(x);
+  }
+  return Triangulation(points, delaunay(points));
+}
+
 inline std::vector<Triangulation> meshes() {
   std::vector<Triangulation> list;
   list.push_back(Triangulation({{0.0, 0.0}, {2.0, 0.3}, {0.4, 1.1}}, {{0, 1, 2}}));
@@ -91,6 +110,7 @@ inline std::vector<Triangulation> meshes() {
   list.push_back(l_shape(2, 0.25, 3));
   list.push_back(fan(5, 1));
   list.push_back(fan(9, 2));
+  for (unsigned seed = 1; seed < 7; ++seed) list.push_back(random_delaunay(30, seed));
   return list;
 }
 

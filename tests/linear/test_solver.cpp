@@ -146,6 +146,21 @@ TEST(LinearSolver, reports_an_iteration_that_does_not_converge) {
   EXPECT_NE(report.cause.find("limit"), std::string::npos) << report.cause;
 }
 
+TEST(LinearSolver, refuses_options_that_nothing_reads) {
+  const Problem p(20, 1, 1e-6);
+  SolverOptions options;
+  options.solver = SolverKind::iterative;
+  options.petsc_options = "-ksp_type cg -pc_tpye jacobi";
+  LinearSolver solver(options);
+  std::vector<double> x(p.rhs.size(), 0.0);
+  try {
+    solver.solve(p.system, p.dofs, p.halo, p.rhs, x);
+    FAIL() << "a misspelt option was ignored";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("-pc_tpye"), std::string::npos) << error.what();
+  }
+}
+
 TEST(LinearSolver, follows_values_that_change_and_keeps_a_factorisation_when_told) {
   Problem p(8, 2, 0.5);
   LinearSolver solver;

@@ -51,6 +51,8 @@ CollisionRun run_collision(const CollisionCase& collision,
   ExplicitOptions options;
   options.duration = collision_duration, options.steps = collision.steps;
   options.mass = collision.mass, options.stress_update = collision.update;
+  // The paper, below its eq. 2: derivatives in the updated coordinates.
+  options.updated_gradients = collision.update == StressUpdate::usf;
   Explicit<2> analysis(model, options);
   CollisionRun run;
   for (const auto& body : model.bodies) run.initial += energy(body).kinetic;

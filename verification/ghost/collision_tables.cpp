@@ -245,9 +245,9 @@ std::vector<VerificationRow> figure_14(Plastic& plastic, const VerificationReque
                 {"strain", run.strain},
                 {"plastic dissipation", run.dissipation},
                 {"kinetic + strain", total}});
-  // The elastic run of the same mesh and steps errs by a mean of 1.6e-3 in print and ten times that at the
-  // most, at the impact, where a first-order step of 3.5 ms meets the fastest change.
-  return {balance("USF Ghost medium 1000 h=0.05", worst, 0.02),
+  // At the most dt/2 times the rate of the strain energy, which is largest on impact: half a step of 3.5 ms
+  // in which some 2 W0 a second are stored and dissipated, 3.5e-3.
+  return {balance("USF Ghost medium 1000 h=0.05", worst, 0.01),
           {"at the end", "kinetic energy / W0", std::nullopt, run.kinetic.back() / run.initial},
           {"at the end", "strain energy / W0", std::nullopt, run.strain.back() / run.initial},
           {"at the end", "plastic dissipation / W0", std::nullopt, run.dissipation.back() / run.initial}};

@@ -22,7 +22,8 @@ struct Shear {
 
 /// Cells of `h` mm; the block is 100 mm wide and high with its support at x = a; 20 x 20 points over two
 /// cells of the paper, so 10 a direction. Sheared by 10 mm at the free end; top and base keep u_x = 0.
-Shear shear(double a, double h, WallMode mode, std::optional<double> delta, bool condition) {
+Shear shear(double a, double h, WallMode mode, std::optional<double> delta, bool condition,
+            const SolverOptions& solver = {SolverKind::direct}) {
   ModelOptions o;
   const int cells = static_cast<int>(std::lround(side / h));
   o.grid.lower = {-2.0 * h, -h}, o.grid.upper = {2.0 * side + 2.0 * h, side + h};
@@ -37,7 +38,7 @@ Shear shear(double a, double h, WallMode mode, std::optional<double> delta, bool
   law.young_modulus = young_modulus, law.poisson_ratio = poisson_ratio, law.density = 1.0;
   body.material = law;
   o.bodies = {body};
-  o.solver.solver = SolverKind::direct;
+  o.solver = solver;
   const auto wall = [&](const char* name, Vec<2> from, Vec<2> to, WallKind kind, double push) {
     WallOptions w;
     w.label = name, w.kind = kind, w.mode = mode, w.delta = delta;
@@ -116,6 +117,19 @@ std::vector<VerificationRow> condition(const VerificationRequest&) {
   row.case_name = "h = 10 mm, consistent, 12 positions";
   row.quantity = "greatest condition number";
   row.computed = worst, row.gated = true, row.verdict = worst < 1e6;
+  rows.push_back(row);
+  // Plain conjugate gradients, which would fail on a matrix that is not positive definite.
+  SolverOptions cg;
+  cg.solver = SolverKind::iterative, cg.tolerance = 1e-12, cg.max_iterations = 5000;
+  cg.petsc_options = "-ksp_type cg -pc_type jacobi";
+  double error = 0.0;
+  for (const double a : {0.0, 1e-3, 5.0, 9.999})
+    error = std::max(error, shear(a, 10.0, WallMode::consistent, {}, false, cg).error);
+  row = {};
+  row.case_name = "h = 10 mm, consistent, conjugate gradients, 4 positions";
+  row.quantity = "greatest error of the shear stress";
+  row.reference = "exact", row.expected = 0.0, row.computed = error;
+  row.tolerance = 1e-6, row.gated = true;
   rows.push_back(row);
   return rows;
 }

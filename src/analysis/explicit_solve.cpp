@@ -1,10 +1,21 @@
-// The mass of an explicit step: its matrix, and what is solved with it.
+// The equation of motion on the grid: mass, velocity, acceleration, and what holds.
+#include <cmath>
+
 #include "analysis/explicit.h"
 #include "core/error.h"
+#include "stabilise/ghost.h"
 #include "transfer/active.h"
 #include "transfer/mass.h"
 
 namespace wisp {
+
+namespace {
+/// What local non-viscous damping (Cundall 1987) takes from an out-of-balance force: a share of it, against
+/// the velocity.
+double damped(double share, double force, double velocity) {
+  return share * std::abs(force) * (velocity > 0 ? 1.0 : velocity < 0 ? -1.0 : 0.0);
+}
+}  // namespace
 
 template <int dim>
 void Explicit<dim>::assemble_mass() {
@@ -44,18 +55,6 @@ void Explicit<dim>::assemble_mass() {
       mass_, space.nodes(), dim, std::move(active),
       model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>(),
       std::move(lumped), boundary);
-}
-
-/// The projected step needs no velocity at its start but for what asks for one: the last projection is at
-/// hand. With a lumped mass it is found on the way.
-template <int dim>
-bool Explicit<dim>::needs_start_velocity(bool recorded) const {
-  if (options_.stress_update == StressUpdate::usf) return true;
-  if (!consistent_) return false;
-  const auto n = static_cast<std::size_t>(model_.space->n_functions()) * dim;
-  return options_.stress_update != StressUpdate::projected || recorded || !walls_.empty() ||
-         options_.velocity_update != VelocityUpdate::flip || options_.pic_fraction > 0 ||
-         options_.damping > 0 || velocity_.size() != n;
 }
 
 /// Sets the velocity of held unknowns to that at time t.
@@ -122,24 +121,93 @@ void Explicit<dim>::solve_acceleration(double dt) {
         model_.step, model_.time, report.cause);
 }
 
-/// The second map: velocity of the points just found, by the functions and the mass of this step. The
-/// projected step also moves the points by it (de Koster et al. 2021; thesis, eq. 2.37-2.39).
+/// Motion of the points' functions from velocity and acceleration (eq. 11).
 template <int dim>
-void Explicit<dim>::map_again(double dt) {
-  {
-    const auto timer = model_.timers.start(1);
-    gather(Gather::inertia);
-    // The solve starts from the velocity just found, not from an array that a resumed run would not have.
-    strain_velocity_.resize(velocity_.size());
-    for (std::size_t k = 0; k < velocity_.size(); ++k)
-      strain_velocity_[k] = velocity_[k] + dt * acceleration_[k];
-    solve_velocity(model_.time + dt, strain_velocity_);
+void Explicit<dim>::set_motion(double dt) {
+  const auto n = static_cast<std::size_t>(model_.space->n_functions());
+  motion_.resize(n * motion_stride<dim>);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t d = 0; d < dim; ++d) {
+      const double a = acceleration_[i * dim + d], v = velocity_[i * dim + d] + dt * a;
+      motion_[i * motion_stride<dim> + d] = v, motion_[i * motion_stride<dim> + dim + d] = a;
+      sum += v * v + a * a;
+    }
+  check_finite(sum);
+}
+
+/// Everything between the sums and the motion with a lumped mass, in one pass over the functions (Coombs
+/// 2023, eq. 10 and 11): a function's numbers are read and written once.
+template <int dim>
+void Explicit<dim>::advance_lumped(double dt) {
+  const auto n = static_cast<std::size_t>(model_.space->n_functions());
+  auto& constraints = model_.constraints;
+  velocity_.resize(n * dim), acceleration_.resize(n * dim), right_side_.resize(n * dim);
+  motion_.resize(n * motion_stride<dim>);
+  const double* const sums = sums_.data();
+  const double* const loads = loads_.empty() ? nullptr : loads_.data();
+  double* const velocity = velocity_.data();
+  double* const acceleration = acceleration_.data();
+  double* const force = right_side_.data();
+  double* const motion = motion_.data();
+  const double damping = options_.damping;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double* const s = sums + i * sums_stride<dim>;
+    const double per_mass = s[0] > 0 ? 1.0 / s[0] : 0.0;
+    double squares = 0.0;
+    for (std::size_t d = 0; d < dim; ++d) {
+      const std::size_t k = i * dim + d;
+      const double v = s[1 + d] * per_mass;
+      double f = s[1 + dim + d];
+      if (loads) f += loads[k];
+      if (damping > 0) f -= damped(damping, f, v);
+      const double a = f * per_mass, end = v + dt * a;
+      velocity[k] = v, acceleration[k] = a, force[k] = f;
+      motion[i * motion_stride<dim> + d] = end, motion[i * motion_stride<dim> + dim + d] = a;
+      squares += end * end + a * a;
+    }
+    sum += squares;
   }
-  if (!walls_.empty()) correct_strain_velocity(false);
-  if (options_.stress_update != StressUpdate::projected) return;
-  velocity_ = strain_velocity_;
-  for (std::size_t k = 0; k < velocity_.size(); ++k)
-    motion_[k / dim * motion_stride<dim> + k % dim] = velocity_[k];
+  prescribe(model_.time, velocity_);
+  if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
+  for (const std::size_t k : constraints.held) {
+    // The force of an unknown that is held by a velocity is damped by that velocity.
+    if (damping > 0) {
+      const double f = sums[k / dim * sums_stride<dim> + 1 + dim + k % dim] + (loads ? loads[k] : 0.0);
+      force[k] = f - damped(damping, f, velocity[k]);
+    }
+    const double end = constraints.prescribed(k), a = (end - velocity[k]) / dt;
+    acceleration[k] = a;
+    double* const m = motion + k / dim * motion_stride<dim> + k % dim;
+    m[0] = velocity[k] + dt * a, m[dim] = a;
+    sum += m[0] * m[0] + a * a;
+  }
+  check_finite(sum);
+}
+
+/// R = M a - f at a held unknown.
+template <int dim>
+double Explicit<dim>::reaction(std::size_t k) const {
+  return (consistent_ ? inertia_[k] : sums_[k / dim * sums_stride<dim>] * acceleration_[k]) - right_side_[k];
+}
+
+/// Reactions R = M a - f of held unknowns.
+template <int dim>
+void Explicit<dim>::find_reactions() {
+  if (!model_.constraints.any) return;
+  if (consistent_) {
+    inertia_.resize(acceleration_.size());
+    mass_.multiply_columns(acceleration_, inertia_, dim);
+    model_.space->nodes().add(inertia_.data(), dim);
+  }
+  for (auto& r : model_.reactions) r.setZero();
+  for (const std::size_t k : model_.constraints.held)
+    if (model_.space->nodes().owns(static_cast<int>(k / dim)))
+      model_
+          .reactions[static_cast<std::size_t>(model_.constraints.condition[k])][static_cast<int>(k % dim)] +=
+          reaction(k);
+  for (auto& r : model_.reactions) r = Session::sum(r);
 }
 
 template class Explicit<2>;
