@@ -47,7 +47,7 @@ struct ExplicitOptions {
       "Explicit dynamics, Euler-Cromer; lumped, consistent or approximately consistent mass";
   static constexpr std::string_view source =
       "Coombs 2023, eq. 4-11; Bardenhagen 2002; Jiang et al. 2015 (APIC); de Koster et al. 2021 (projected, "
-      "partial); Nairn and Hammerquist 2021 (FMPM)";
+      "partial); Nairn and Hammerquist 2021 (FMPM); Wobbes et al. 2019 (reconstructed)";
   static constexpr auto keys() {
     using O = ExplicitOptions;
     return std::tuple{

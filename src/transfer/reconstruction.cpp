@@ -44,7 +44,8 @@ void gauss_points(const Basis& basis, int t, std::vector<GaussPoint<2>>& list) {
 
 /// Two points a direction of a cell of a structured grid.
 template <int dim>
-void gauss_points(const StructuredGrid<dim>& grid, const MultiIndex<dim>& cell, std::vector<GaussPoint<dim>>& list) {
+void gauss_points(const StructuredGrid<dim>& grid, const MultiIndex<dim>& cell,
+                  std::vector<GaussPoint<dim>>& list) {
   const double root = 1.0 / std::sqrt(3.0);
   list.clear();
   for (int k = 0; k < (1 << dim); ++k) {
@@ -72,7 +73,8 @@ Around bits_around(const Space<dim>& space, const ActiveCells& cells) {
       for (int v = 0; v < mesh.n_vertices(); ++v) {
         int every = ~0, any = 0;
         for (const int t : mesh.triangles_of_vertex(v)) every &= cells.bits[at(t)], any |= cells.bits[at(t)];
-        for (const int t : mesh.triangles_of_vertex(v)) around.every[at(t)] &= every, around.any[at(t)] |= any;
+        for (const int t : mesh.triangles_of_vertex(v))
+          around.every[at(t)] &= every, around.any[at(t)] |= any;
       }
       return around;
     }
@@ -91,7 +93,8 @@ Around bits_around(const Space<dim>& space, const ActiveCells& cells) {
 
 /// Cauchy stress and present volume of a point.
 template <int dim, class Law, class State>
-std::pair<Mat<dim>, double> stress_and_volume(const Particles<dim>& points, std::size_t p, const State& state) {
+std::pair<Mat<dim>, double> stress_and_volume(const Particles<dim>& points, std::size_t p,
+                                              const State& state) {
   const double ratio = Law::finite_strain ? points.deformation_gradient[p].determinant() : 1.0;
   return {matrix<dim>(state.stress) / ratio, points.volume[p] * ratio};
 }
@@ -196,8 +199,8 @@ void for_each_cell(const Space<dim>& space, const Basis& basis, const std::vecto
 }  // namespace
 
 template <int dim>
-void add_reconstruction(const Space<dim>& space, const std::vector<Body<dim>>& bodies, const ActiveCells& cells,
-                        std::span<double> sums) {
+void add_reconstruction(const Space<dim>& space, const std::vector<Body<dim>>& bodies,
+                        const ActiveCells& cells, std::span<double> sums) {
   const Around around = bits_around(space, cells);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const int bit = 1 << b;

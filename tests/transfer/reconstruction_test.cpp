@@ -93,7 +93,8 @@ std::unique_ptr<Space<2>> triangles(int n, const AnyBasisOptions& basis) {
       const int a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
       const int m = static_cast<int>(vertices.size());
       vertices.emplace_back(i + 0.5, j + 0.5);
-      for (const auto& t : {std::array{a, b, m}, std::array{b, c, m}, std::array{c, d, m}, std::array{d, a, m}})
+      for (const auto& t :
+           {std::array{a, b, m}, std::array{b, c, m}, std::array{c, d, m}, std::array{d, a, m}})
         list.push_back(t);
     }
   return std::make_unique<Space<2>>(std::make_shared<const Triangulation>(vertices, list), basis);
@@ -129,7 +130,8 @@ TEST(Reconstruction, IntegratesLinearStressExactlyOnSquares) {
   const auto f = forces(*space, {random_body(n, linear_field())});
   for (int i = 0; i < space->n_functions(); ++i)
     if (inside(*space, i, n)) {
-      EXPECT_LT((f[static_cast<std::size_t>(i)] - linear_field().divergence()).norm(), 1e-12) << "the hat's area is 1";
+      EXPECT_LT((f[static_cast<std::size_t>(i)] - linear_field().divergence()).norm(), 1e-12)
+          << "the hat's area is 1";
     }
 }
 
@@ -137,7 +139,8 @@ TEST(Reconstruction, GivesTheDivergenceTimesTheFunctionsIntegralOnTriangles) {
   StressField one, two;
   one.gradient_x(0, 0) = 1.0;                          // divergence (1, 0)
   two.gradient_y(1, 1) = 2.0, two.constant(0, 0) = 9;  // divergence (0, 2)
-  for (const AnyBasisOptions& basis : {AnyBasisOptions(LinearOptions{}), AnyBasisOptions(PowellSabinOptions{})}) {
+  for (const AnyBasisOptions& basis :
+       {AnyBasisOptions(LinearOptions{}), AnyBasisOptions(PowellSabinOptions{})}) {
     const auto space = triangles(n, basis);
     const auto a = forces(*space, {random_body(n, one)}), b = forces(*space, {random_body(n, two)});
     for (int i = 0; i < space->n_functions(); ++i) {
@@ -176,7 +179,8 @@ TEST(Reconstruction, KeepsTheSumOfForcesAndLeavesTheEdgeOfTheBodyToThePoints) {
   int same = 0, changed = 0;
   for (int i = 0; i < space->n_functions(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double difference = (f[k] - Vec<2>(sums[k * sums_stride<2> + 3], sums[k * sums_stride<2> + 4])).norm();
+    const double difference =
+        (f[k] - Vec<2>(sums[k * sums_stride<2> + 3], sums[k * sums_stride<2> + 4])).norm();
     const double x = space->node_position(i)[0];
     if (x > 3.9) same += difference < 1e-14;
     if (x < 1.9) changed += difference > 1e-6;

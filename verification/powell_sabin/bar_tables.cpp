@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "verification/powell_sabin/dynamics.h"
 #include "verification/powell_sabin/exact.h"
 #include "verification/powell_sabin/histories.h"
-#include "verification/powell_sabin/dynamics.h"
 #include "verification/powell_sabin/strip.h"
 #include "verification/published.h"
 
@@ -30,8 +30,8 @@ struct Convergence {
   std::vector<double> size, error;
 };
 
-void add_rates(const std::string& name, const Convergence& c, std::size_t gated_until, double low, double high,
-               std::vector<VerificationRow>& rows) {
+void add_rates(const std::string& name, const Convergence& c, std::size_t gated_until, double low,
+               double high, std::vector<VerificationRow>& rows) {
   for (std::size_t i = 1; i < c.error.size(); ++i) {
     VerificationRow row;
     row.case_name = fmt::format("{}, h = {:.4g} to {:.4g} m", name, c.size[i - 1], c.size[i]);
@@ -111,7 +111,8 @@ std::vector<VerificationRow> figure_4_6(const VerificationRequest& request) {
     a.push_back(error_of_table(blocks, false, 16, 14));
     b.push_back(blocks <= 16 ? error_of_table(blocks, true, 16, 14) : std::nan(""));
   }
-  write_curves(request.folder, "powell-sabin.figure-4-6", "Vibrating bar: L2 error of the displacement at 0.02 s",
+  write_curves(request.folder, "powell-sabin.figure-4-6",
+               "Vibrating bar: L2 error of the displacement at 0.02 s",
                {{"h [m]", size}, {"Lagrange", a}, {"Powell-Sabin", b}});
   // The thesis's reading: 42 splines are as good as 98 linear functions.
   VerificationRow row;
@@ -125,7 +126,8 @@ std::vector<VerificationRow> figure_4_6(const VerificationRequest& request) {
 Reference exact_reference(const VibratingBar& bar, const StripRun& run) {
   Reference r{run.time, {}, {}};
   for (const double t : run.time)
-    r.displacement.push_back(bar.displacement(run.middle, t)), r.velocity.push_back(bar.velocity(run.middle, t));
+    r.displacement.push_back(bar.displacement(run.middle, t)),
+        r.velocity.push_back(bar.velocity(run.middle, t));
   return r;
 }
 
@@ -139,7 +141,8 @@ std::vector<VerificationRow> figure_4_3(const VerificationRequest& request) {
     s.dt = 1e-3, s.duration = 10.0;
     const StripRun run = run_strip(s);
     const Reference exact = exact_reference(exact_bar(s), run);
-    const std::string name = crossing ? "linear, v0 = 0.1 m/s (crosses)" : "linear, v0 = 0.025 m/s (does not)";
+    const std::string name =
+        crossing ? "linear, v0 = 0.1 m/s (crosses)" : "linear, v0 = 0.025 m/s (does not)";
     rows.push_back(number(name, "rms velocity error / v0", rms_velocity_error(run, exact) / s.speed));
     rows.push_back(number(name, "rms displacement error / amplitude",
                           rms_error(run, exact) * exact_bar(s).frequency() / s.speed));
@@ -147,7 +150,8 @@ std::vector<VerificationRow> figure_4_3(const VerificationRequest& request) {
     write_history(request, crossing ? "powell-sabin.figure-4-3-left" : "powell-sabin.figure-4-3-right",
                   "Vibrating bar, Lagrange, 38 functions", {{name, run}}, exact, "exact");
   }
-  rows.push_back(number("crossing over not crossing", "ratio of velocity errors", oscillation[0] / oscillation[1]));
+  rows.push_back(
+      number("crossing over not crossing", "ratio of velocity errors", oscillation[0] / oscillation[1]));
   rows.back().gated = true, rows.back().verdict = rows.back().computed > 1.5;
   return rows;
 }
@@ -162,7 +166,8 @@ std::vector<VerificationRow> figure_4_5(const VerificationRequest& request) {
   write_history(request, "powell-sabin.figure-4-5", "Vibrating bar, Powell-Sabin, 42 functions",
                 {{"Powell-Sabin, 4 blocks", spline}, {"Lagrange, 12 blocks", linear}}, exact, "exact");
   std::vector<VerificationRow> rows;
-  rows.push_back(number("Powell-Sabin, 4 blocks", "rms velocity error / v0", rms_velocity_error(spline, exact) / 0.1));
+  rows.push_back(
+      number("Powell-Sabin, 4 blocks", "rms velocity error / v0", rms_velocity_error(spline, exact) / 0.1));
   rows.push_back(number("Powell-Sabin, 4 blocks", "rms displacement error / amplitude",
                         rms_error(spline, exact) * exact_bar(s).frequency() / 0.1));
   rows.push_back(number("Lagrange, 12 blocks, over Powell-Sabin, 4 blocks", "ratio of velocity errors",
@@ -192,11 +197,13 @@ std::vector<VerificationRow> large_deformation(const VerificationRequest& reques
     s.dt = 5e-3, s.duration = 60.0, s.record_every = 10;
     const StripRun run = run_strip(s);
     reference = ulfem_reference(s, run.middle, run.time);
-    rows.push_back(number(side.name, "rms velocity error / v0", rms_velocity_error(run, reference) / s.speed));
+    rows.push_back(
+        number(side.name, "rms velocity error / v0", rms_velocity_error(run, reference) / s.speed));
     rows.push_back(number(side.name, "rms displacement error (m)", rms_error(run, reference)));
     rows.push_back(number(side.name, "largest displacement error (m)", largest_error(run, reference)));
     if (splines)
-      rows[rows.size() - 3].gated = true, rows[rows.size() - 3].verdict = rows[rows.size() - 3].computed < 0.1;
+      rows[rows.size() - 3].gated = true,
+                         rows[rows.size() - 3].verdict = rows[rows.size() - 3].computed < 0.1;
     runs.emplace_back(side.name, run);
   }
   write_history(request, id, "Vibrating bar, large deformation", runs, reference, "ULFEM");
@@ -229,7 +236,8 @@ std::vector<VerificationRow> figure_5_7(const VerificationRequest& request) {
     rows.push_back(number(name, "rms velocity error along the bar at 2.5 s / v0",
                           std::sqrt(sum / static_cast<double>(run.start.size())) / s.speed));
   }
-  rows.push_back(number("lumped over consistent", "ratio of velocity errors", rows[0].computed / rows[1].computed));
+  rows.push_back(
+      number("lumped over consistent", "ratio of velocity errors", rows[0].computed / rows[1].computed));
   rows.back().gated = true, rows.back().verdict = rows.back().computed > 5.0;
   write_history(request, "powell-sabin.figure-5-7a", "Vibrating bar, 24x1 blocks", runs,
                 exact_reference(exact, runs.front().second), "exact");
@@ -248,21 +256,23 @@ std::vector<VerificationRow> figure_5_7(const VerificationRequest& request) {
     }
     profile.push_back(column);
   }
-  write_curves(request.folder, "powell-sabin.figure-5-7b", "Vibrating bar: velocity along the bar at 2.5 s", profile);
+  write_curves(request.folder, "powell-sabin.figure-5-7b", "Vibrating bar: velocity along the bar at 2.5 s",
+               profile);
   return rows;
 }
 
 }  // namespace
 
 std::vector<VerificationTable> bar_tables() {
-  return {{"powell-sabin.table-4-2", "Vibrating bar, linear functions: L2 error", table_4_2, false},
-          {"powell-sabin.table-4-3", "Vibrating bar, Powell-Sabin splines: L2 error", table_4_3, false},
-          {"powell-sabin.figure-4-3", "Vibrating bar, linear functions: grid crossing", figure_4_3, false},
-          {"powell-sabin.figure-4-5", "Vibrating bar, Powell-Sabin splines: no grid crossing", figure_4_5, false},
-          {"powell-sabin.figure-4-6", "Vibrating bar: convergence of both", figure_4_6, false},
-          {"powell-sabin.figure-4-7", "Vibrating bar, large deformation, linear functions", figure_4_7, false},
-          {"powell-sabin.figure-4-8", "Vibrating bar, large deformation, splines", figure_4_8, false},
-          {"powell-sabin.figure-5-7", "Vibrating bar, lumped splines: velocity profile", figure_5_7, false}};
+  return {
+      {"powell-sabin.table-4-2", "Vibrating bar, linear functions: L2 error", table_4_2, false},
+      {"powell-sabin.table-4-3", "Vibrating bar, Powell-Sabin splines: L2 error", table_4_3, false},
+      {"powell-sabin.figure-4-3", "Vibrating bar, linear functions: grid crossing", figure_4_3, false},
+      {"powell-sabin.figure-4-5", "Vibrating bar, Powell-Sabin splines: no grid crossing", figure_4_5, false},
+      {"powell-sabin.figure-4-6", "Vibrating bar: convergence of both", figure_4_6, false},
+      {"powell-sabin.figure-4-7", "Vibrating bar, large deformation, linear functions", figure_4_7, false},
+      {"powell-sabin.figure-4-8", "Vibrating bar, large deformation, splines", figure_4_8, false},
+      {"powell-sabin.figure-5-7", "Vibrating bar, lumped splines: velocity profile", figure_5_7, false}};
 }
 
 }  // namespace wisp

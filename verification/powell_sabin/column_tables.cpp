@@ -1,9 +1,9 @@
 // The soil column of the thesis: figures 4.10, 4.11, 4.13 and chapter 5, figures 5.3 to 5.6 and 5.8.
 #include <cmath>
 
+#include "verification/powell_sabin/dynamics.h"
 #include "verification/powell_sabin/exact.h"
 #include "verification/powell_sabin/histories.h"
-#include "verification/powell_sabin/dynamics.h"
 #include "verification/published.h"
 
 namespace wisp {
@@ -16,7 +16,8 @@ SoilColumn exact_column(const StripCase& s) { return {s.density, s.young_modulus
 Reference exact_reference(const SoilColumn& column, const StripRun& run) {
   Reference r{run.time, {}, {}};
   for (const double t : run.time)
-    r.displacement.push_back(column.displacement(run.middle, t)), r.velocity.push_back(column.velocity(run.middle, t));
+    r.displacement.push_back(column.displacement(run.middle, t)),
+        r.velocity.push_back(column.velocity(run.middle, t));
   return r;
 }
 
@@ -29,7 +30,8 @@ void add_errors(const std::string& name, const StripCase& s, const StripRun& run
     rows.push_back(number(name, "became unstable at (s)", run.end));
     return;
   }
-  rows.push_back(number(name, "rms velocity error / (g T/4)", rms_velocity_error(run, reference) / speed_scale(s)));
+  rows.push_back(
+      number(name, "rms velocity error / (g T/4)", rms_velocity_error(run, reference) / speed_scale(s)));
   rows.push_back(number(name, "rms displacement error (m)", rms_error(run, reference)));
   rows.push_back(number(name, "largest displacement error (m)", largest_error(run, reference)));
 }
@@ -115,7 +117,8 @@ std::vector<VerificationRow> figure_5(const VerificationRequest& request, const 
     const Reference own = ulfem_reference(s, run.middle, run.time);
     if (own.time.size() > reference.time.size()) reference = own;
     add_errors(name, s, run, own, rows);
-    if (s.blocks == 8) rows.push_back(bound(name, "stable as in the thesis", run.stable(), run.stable() == is_stable_on_1x8));
+    if (s.blocks == 8)
+      rows.push_back(bound(name, "stable as in the thesis", run.stable(), run.stable() == is_stable_on_1x8));
     runs.emplace_back(name, run);
   }
   write_history(request, id, "Soil column, large deformation", runs, reference, "ULFEM");
@@ -149,13 +152,15 @@ std::vector<VerificationRow> figure_5_8(const VerificationRequest& request) {
 }  // namespace
 
 std::vector<VerificationTable> column_thesis_tables() {
-  return {{"powell-sabin.figure-4-10", "Soil column, small deformation: splines and linear functions", figure_4_10, false},
-          {"powell-sabin.figure-4-11", "Soil column, small deformation, finer", figure_4_11, false},
-          {"powell-sabin.figure-4-13", "Soil column, large deformation", figure_4_13, false},
-          {"powell-sabin.figure-5-3", "Soil column: consistent mass, no treatment", figure_5_3, false},
-          {"powell-sabin.figure-5-4", "Soil column: deactivation below 0.01 kg", figure_5_4, false},
-          {"powell-sabin.figure-5-5", "Soil column: lumped mass (5.5 on 1x8, 5.6 on 2x16)", figure_5_5, false},
-          {"powell-sabin.figure-5-8", "Soil column: partially lumped mass", figure_5_8, false}};
+  return {
+      {"powell-sabin.figure-4-10", "Soil column, small deformation: splines and linear functions",
+       figure_4_10, false},
+      {"powell-sabin.figure-4-11", "Soil column, small deformation, finer", figure_4_11, false},
+      {"powell-sabin.figure-4-13", "Soil column, large deformation", figure_4_13, false},
+      {"powell-sabin.figure-5-3", "Soil column: consistent mass, no treatment", figure_5_3, false},
+      {"powell-sabin.figure-5-4", "Soil column: deactivation below 0.01 kg", figure_5_4, false},
+      {"powell-sabin.figure-5-5", "Soil column: lumped mass (5.5 on 1x8, 5.6 on 2x16)", figure_5_5, false},
+      {"powell-sabin.figure-5-8", "Soil column: partially lumped mass", figure_5_8, false}};
 }
 
 }  // namespace wisp

@@ -68,9 +68,11 @@ DiscRun run_disc(const DiscCase& d) {
       analysis.step(d.dt);
       run.end = model.time;
       run.momentum = std::max(run.momentum, (momentum(body.points) - p).norm() / p.norm());
-      run.angular_momentum = std::max(run.angular_momentum, std::abs(angular_momentum(body.points) / l - 1.0));
+      run.angular_momentum =
+          std::max(run.angular_momentum, std::abs(angular_momentum(body.points) / l - 1.0));
       const BodyEnergy e = energy(body);
-      run.energy = std::max(run.energy, std::abs((e.kinetic + e.strain) / (first.kinetic + first.strain) - 1.0));
+      run.energy =
+          std::max(run.energy, std::abs((e.kinetic + e.strain) / (first.kinetic + first.strain) - 1.0));
     }
   } catch (const RunError& error) {
     run.failure = error.what();

@@ -7,8 +7,8 @@
 
 namespace wisp::powell_sabin {
 
-/// A disc of radius 0.3 m of Hencky's material (E = 1 kPa, nu = 0.3, 1000 kg/m3) that flies, turns a quarter a second
-/// and starts with an expansion of 0.5 per second, on a random Delaunay triangulation.
+/// A disc of radius 0.3 m of Hencky's material (E = 1 kPa, nu = 0.3, 1000 kg/m3) that flies, turns a quarter
+/// a second and starts with an expansion of 0.5 per second, on a random Delaunay triangulation.
 struct DiscCase {
   Mass mass = Mass::consistent;
   int fmpm_order = 4;

@@ -1,5 +1,5 @@
-// The tables and figures of motion in the Powell-Sabin thesis, and what became of its open issue. A file beside
-// this one gives those of one subject.
+// The tables and figures of motion in the Powell-Sabin thesis, and what became of its open issue. A file
+// beside this one gives those of one subject.
 #pragma once
 #include <vector>
 

@@ -23,8 +23,10 @@ void write_history(const VerificationRequest& request, const std::string& name, 
                    const std::string& reference_name) {
   std::vector<FigureColumn> u{{"t [s]", reference.time}}, v{{"t [s]", reference.time}};
   for (const auto& [label, run] : runs) {
-    FigureColumn cu{label + ": displacement [m]", run.displacement}, cv{label + ": velocity [m/s]", run.velocity};
-    cu.values.resize(reference.time.size(), std::nan("")), cv.values.resize(reference.time.size(), std::nan(""));
+    FigureColumn cu{label + ": displacement [m]", run.displacement},
+        cv{label + ": velocity [m/s]", run.velocity};
+    cu.values.resize(reference.time.size(), std::nan("")),
+        cv.values.resize(reference.time.size(), std::nan(""));
     u.push_back(cu), v.push_back(cv);
   }
   u.push_back({reference_name, reference.displacement}), v.push_back({reference_name, reference.velocity});

@@ -1,13 +1,13 @@
-// The open issue of the thesis's chapter 5, triangles that are almost empty: what each treatment of the mass makes
-// of it.
+// The open issue of the thesis's chapter 5, triangles that are almost empty: what each treatment of the mass
+// makes of it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "verification/powell_sabin/disc.h"
+#include "verification/powell_sabin/dynamics.h"
 #include "verification/powell_sabin/exact.h"
 #include "verification/powell_sabin/histories.h"
-#include "verification/powell_sabin/dynamics.h"
 #include "verification/published.h"
 
 namespace wisp {
@@ -21,10 +21,12 @@ struct Treatment {
   double deactivate_below;
   bool ghost;
 };
-constexpr Treatment treatments[] = {
-    {"consistent", Mass::consistent, 0.0, false}, {"lumped", Mass::lumped, 0.0, false},
-    {"partially lumped", Mass::partial, 0.0, false}, {"deactivated", Mass::consistent, 1e-2, false},
-    {"FMPM(4)", Mass::fmpm, 0.0, false},          {"Ghost", Mass::consistent, 0.0, true}};
+constexpr Treatment treatments[] = {{"consistent", Mass::consistent, 0.0, false},
+                                    {"lumped", Mass::lumped, 0.0, false},
+                                    {"partially lumped", Mass::partial, 0.0, false},
+                                    {"deactivated", Mass::consistent, 1e-2, false},
+                                    {"FMPM(4)", Mass::fmpm, 0.0, false},
+                                    {"Ghost", Mass::consistent, 0.0, true}};
 
 /// The thesis's column under its own weight, table 4.6, over a little more than five periods.
 StripCase column(int across, int blocks, int points) {
@@ -50,7 +52,8 @@ double energy_gain(const StripRun& run) {
 }
 
 std::string grid_name(const StripCase& s) {
-  return fmt::format("{}x{} blocks, {} points a triangle", s.blocks_across, s.blocks, s.points * s.points_across / 4);
+  return fmt::format("{}x{} blocks, {} points a triangle", s.blocks_across, s.blocks,
+                     s.points * s.points_across / 4);
 }
 
 std::vector<VerificationRow> blocks(const VerificationRequest& request) {
@@ -89,19 +92,25 @@ std::vector<VerificationRow> blocks(const VerificationRequest& request) {
       rows.push_back(bound(name, "stable over five periods", run.end, run.stable() && run.end > 2.0));
       rows.push_back(bound(name, "lumping's error over Ghost's", lumped / error, lumped / error > 5.0));
       if (!ghost.empty())
-        rows.push_back(bound(name, "error over that of the grid before", error / ghost.back(), error < 1.5 * ghost.back()));
+        rows.push_back(bound(name, "error over that of the grid before", error / ghost.back(),
+                             error < 1.5 * ghost.back()));
       ghost.push_back(error);
       for (const double c : run.condition) worst_condition = std::max(worst_condition, c);
       rows.push_back(number(name, "largest condition number of the mass",
-                            run.condition.empty() ? std::nan("") : *std::max_element(run.condition.begin(), run.condition.end())));
+                            run.condition.empty()
+                                ? std::nan("")
+                                : *std::max_element(run.condition.begin(), run.condition.end())));
     }
     if (grid.blocks == 8) shown = runs, shown_reference = reference;
   }
   rows.push_back(bound("Ghost, finest over coarsest grid", "ratio of errors", ghost.back() / ghost.front(),
                        ghost.back() < ghost.front() / 3.0));
-  rows.push_back(bound("Ghost, all grids", "largest condition number of the mass", worst_condition, worst_condition < 1e8));
-  write_curves(request.folder, "near-empty.blocks", "Soil column: largest displacement error over five periods", errors);
-  write_history(request, "near-empty.blocks-1x8", "Soil column, 1x8 blocks, every treatment", shown, shown_reference, "ULFEM");
+  rows.push_back(bound("Ghost, all grids", "largest condition number of the mass", worst_condition,
+                       worst_condition < 1e8));
+  write_curves(request.folder, "near-empty.blocks",
+               "Soil column: largest displacement error over five periods", errors);
+  write_history(request, "near-empty.blocks-1x8", "Soil column, 1x8 blocks, every treatment", shown,
+                shown_reference, "ULFEM");
   return rows;
 }
 
@@ -144,8 +153,9 @@ std::vector<VerificationRow> few_points(const VerificationRequest&) {
       const StripRun run = run_strip(s);
       const std::string name = fmt::format("{} points a triangle, {}", 0.25 * points * points,
                                            elements == GhostElements::ring ? "ring" : "ring-all");
-      rows.push_back(number(name, run.stable() ? "gain of energy / largest kinetic energy" : "became unstable at (s)",
-                            run.stable() ? energy_gain(run) : run.end));
+      rows.push_back(
+          number(name, run.stable() ? "gain of energy / largest kinetic energy" : "became unstable at (s)",
+                 run.stable() ? energy_gain(run) : run.end));
       if (run.stable())
         rows.push_back(number(name, "largest displacement error (m)",
                               largest_error(run, ulfem_reference(s, run.middle, run.time))));
@@ -183,14 +193,16 @@ std::vector<VerificationRow> disc(const VerificationRequest& request) {
   const auto add = [&](const std::string& name, const DiscCase& d, bool gated) {
     const DiscRun run = run_disc(d);
     if (!run.failure.empty()) {
-      rows.push_back(gated ? bound(name, "stable", 0.0, false) : number(name, "became unstable at (s)", run.end));
+      rows.push_back(gated ? bound(name, "stable", 0.0, false)
+                           : number(name, "became unstable at (s)", run.end));
       return;
     }
     const auto row = [&](const char* quantity, double value, double limit) {
       rows.push_back(gated ? bound(name, quantity, value, value < limit) : number(name, quantity, value));
     };
     row("change of momentum, relative", run.momentum, 1e-12);
-    row("change of angular momentum, relative", run.angular_momentum, d.mass == Mass::consistent ? 1e-12 : 1.0);
+    row("change of angular momentum, relative", run.angular_momentum,
+        d.mass == Mass::consistent ? 1e-12 : 1.0);
     row("largest change of energy, relative", run.energy, 0.005);
   };
   for (const auto& t : treatments) {
@@ -205,7 +217,9 @@ std::vector<VerificationRow> disc(const VerificationRequest& request) {
       DiscCase d;
       d.ghost = GhostOptions{};
       d.ghost->mass = gamma, d.ghost->elements = elements;
-      add(fmt::format("Ghost, {}, gamma = {:g}", elements == GhostElements::ring ? "ring" : "ring-all", gamma), d, false);
+      add(fmt::format("Ghost, {}, gamma = {:g}", elements == GhostElements::ring ? "ring" : "ring-all",
+                      gamma),
+          d, false);
     }
   return rows;
 }
@@ -216,7 +230,8 @@ std::vector<VerificationTable> near_empty_tables() {
   return {{"near-empty.blocks", "Soil column on blocks: every treatment of the mass", blocks, false},
           {"near-empty.delaunay", "Soil column on 20 random triangulations", delaunay, false},
           {"near-empty.few-points", "Soil column with few points a triangle", few_points, false},
-          {"near-empty.other-functions", "Soil column: linear functions and cubic splines", other_functions, false},
+          {"near-empty.other-functions", "Soil column: linear functions and cubic splines", other_functions,
+           false},
           {"near-empty.disc", "A disc in free flight", disc, false}};
 }
 

@@ -35,7 +35,8 @@ StripCase large_column() {
 
 namespace {
 
-ConformingOptions hold(const char* label, const char* normal, double at, std::vector<std::string> directions) {
+ConformingOptions hold(const char* label, const char* normal, double at,
+                       std::vector<std::string> directions) {
   ConformingOptions c;
   c.label = label, c.normal = normal, c.at = at, c.directions = std::move(directions);
   return c;
@@ -106,8 +107,8 @@ std::size_t middle_point(const Particles<2>& points, const Vec<2>& middle) {
   return best;
 }
 
-/// Kinetic energy, and strain energy minus the work of gravity, J. In uniaxial strain the thesis's law has the
-/// energy E (s - 1 - ln s) of a stretch s (see Ulfem), which its own estimate from the stress only nears.
+/// Kinetic energy, and strain energy minus the work of gravity, J. In uniaxial strain the thesis's law has
+/// the energy E (s - 1 - ln s) of a stretch s (see Ulfem), which its own estimate from the stress only nears.
 std::pair<double, double> energies(const StripCase& s, const Particles<2>& points) {
   double kinetic = 0.0, potential = 0.0;
   const int axis = s.column ? 1 : 0;
@@ -135,9 +136,11 @@ StripRun run_strip(const StripCase& s) {
   run.axis = s.column ? 1 : 0;
   Particles<2>& points = model.bodies.front().points;
   for (std::size_t p = 0; p < points.position.size(); ++p)
-    points.velocity[p] = s.column ? Vec<2>(0.0, s.staggered ? 0.5 * s.dt * s.gravity : 0.0)
-                                  : Vec<2>(s.speed * std::sin(std::numbers::pi * points.position[p][0] / s.length), 0.0);
-  const Vec<2> middle = s.column ? Vec<2>(0.5 * s.width, 0.5 * s.length) : Vec<2>(0.5 * s.length, 0.5 * s.width);
+    points.velocity[p] =
+        s.column ? Vec<2>(0.0, s.staggered ? 0.5 * s.dt * s.gravity : 0.0)
+                 : Vec<2>(s.speed * std::sin(std::numbers::pi * points.position[p][0] / s.length), 0.0);
+  const Vec<2> middle =
+      s.column ? Vec<2>(0.5 * s.width, 0.5 * s.length) : Vec<2>(0.5 * s.length, 0.5 * s.width);
   const std::size_t first = middle_point(points, middle);
   const std::int64_t id = points.id[first];
   run.middle = points.position[first][run.axis];
@@ -147,7 +150,8 @@ StripRun run_strip(const StripCase& s) {
       analysis.step(s.dt);
       run.end = model.time;
       if (i % s.record_every != 0 && i != steps) continue;
-      const auto p = static_cast<std::size_t>(std::find(points.id.begin(), points.id.end(), id) - points.id.begin());
+      const auto p =
+          static_cast<std::size_t>(std::find(points.id.begin(), points.id.end(), id) - points.id.begin());
       run.time.push_back(model.time);
       run.displacement.push_back(points.displacement[p][run.axis]);
       run.velocity.push_back(points.velocity[p][run.axis]);
@@ -184,7 +188,8 @@ double StripRun::largest_error(const std::function<double(double x, double t)>& 
 double StripRun::rms_error(const std::function<double(double x, double t)>& reference) const {
   if (!stable()) return std::numeric_limits<double>::infinity();
   double sum = 0.0;
-  for (std::size_t i = 0; i < time.size(); ++i) sum += std::pow(displacement[i] - reference(middle, time[i]), 2);
+  for (std::size_t i = 0; i < time.size(); ++i)
+    sum += std::pow(displacement[i] - reference(middle, time[i]), 2);
   return std::sqrt(sum / static_cast<double>(time.size()));
 }
 
@@ -207,8 +212,7 @@ Reference ulfem_reference(const StripCase& s, double middle, const std::vector<d
   UlfemCase c;
   c.length = s.length, c.density = s.density, c.young_modulus = s.young_modulus;
   c.acceleration = -s.gravity, c.end_held = !s.column, c.elements = 2000, c.hencky = s.hencky;
-  if (!s.column)
-    c.velocity = [&](double x) { return s.speed * std::sin(std::numbers::pi * x / s.length); };
+  if (!s.column) c.velocity = [&](double x) { return s.speed * std::sin(std::numbers::pi * x / s.length); };
   Ulfem ulfem(c);
   Reference r;
   for (const double t : times) {
@@ -235,7 +239,8 @@ double largest_error(const StripRun& run, const Reference& reference) {
   return worst;
 }
 double rms_error(const StripRun& run, const Reference& reference) {
-  return run.stable() ? rms(run.displacement, reference.displacement) : std::numeric_limits<double>::infinity();
+  return run.stable() ? rms(run.displacement, reference.displacement)
+                      : std::numeric_limits<double>::infinity();
 }
 double rms_velocity_error(const StripRun& run, const Reference& reference) {
   return run.stable() ? rms(run.velocity, reference.velocity) : std::numeric_limits<double>::infinity();

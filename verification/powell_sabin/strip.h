@@ -10,8 +10,8 @@
 
 namespace wisp::powell_sabin {
 
-/// A strip along x (a bar between two walls) or along y (a column on its base), on a grid of blocks, each split
-/// into four triangles, or on a random Delaunay triangulation of about the same triangles.
+/// A strip along x (a bar between two walls) or along y (a column on its base), on a grid of blocks, each
+/// split into four triangles, or on a random Delaunay triangulation of about the same triangles.
 struct StripCase {
   bool column = false;
   double length = 25.0, width = 2.0;  ///< m, along and across the motion
@@ -33,8 +33,8 @@ struct StripCase {
   std::optional<GhostOptions> ghost;
   bool reconstructed = false;
   double dt = 1e-4, duration = 1.0;
-  /// Velocities start at -dt/2, which makes the symplectic Euler steps those of the leapfrog: without it the column
-  /// is g dt t/2 off at once.
+  /// Velocities start at -dt/2, which makes the symplectic Euler steps those of the leapfrog: without it the
+  /// column is g dt t/2 off at once.
   bool staggered = true;
   int record_every = 10;
   bool with_conditions = false;  ///< condition numbers of the mass, every 50th record
@@ -47,20 +47,22 @@ StripCase small_column();
 StripCase large_column();
 
 struct StripRun {
-  std::vector<double> time;                      ///< s
-  std::vector<double> displacement, velocity;    ///< of the point nearest to the middle, along the motion
-  std::vector<double> energy;                    ///< J: kinetic, strain, minus work of gravity
-  std::vector<double> condition;                 ///< where asked for
-  double middle = 0.0;                           ///< m, initial coordinate of the middle point
-  double kinetic_scale = 0.0;                    ///< J, largest kinetic energy
-  std::string failure;                           ///< empty if the run came to its end
-  double end = 0.0;                              ///< s, of the last step that was done
-  std::vector<Vec<2>> start, moved, point_velocity;  ///< of all points at the end: initial position, displacement
-  std::vector<double> volume;                    ///< m2, initial
+  std::vector<double> time;                    ///< s
+  std::vector<double> displacement, velocity;  ///< of the point nearest to the middle, along the motion
+  std::vector<double> energy;                  ///< J: kinetic, strain, minus work of gravity
+  std::vector<double> condition;               ///< where asked for
+  double middle = 0.0;                         ///< m, initial coordinate of the middle point
+  double kinetic_scale = 0.0;                  ///< J, largest kinetic energy
+  std::string failure;                         ///< empty if the run came to its end
+  double end = 0.0;                            ///< s, of the last step that was done
+  std::vector<Vec<2>> start, moved,
+      point_velocity;          ///< of all points at the end: initial position, displacement
+  std::vector<double> volume;  ///< m2, initial
   int axis = 0;
 
   bool stable() const { return failure.empty(); }
-  /// Largest difference of the middle point's displacement from a reference over the run, m; infinity if it failed.
+  /// Largest difference of the middle point's displacement from a reference over the run, m; infinity if it
+  /// failed.
   double largest_error(const std::function<double(double x, double t)>& reference) const;
   /// Root of the mean square of the same.
   double rms_error(const std::function<double(double x, double t)>& reference) const;
@@ -72,8 +74,8 @@ struct StripRun {
 
 StripRun run_strip(const StripCase& strip);
 
-/// Displacement and velocity of the one-dimensional updated-Lagrangian reference at the middle point and at the
-/// times of a run.
+/// Displacement and velocity of the one-dimensional updated-Lagrangian reference at the middle point and at
+/// the times of a run.
 struct Reference {
   std::vector<double> time, displacement, velocity;
 };
