@@ -164,9 +164,9 @@ TEST(Case, EveryTemplateIsAValidCase) {
 }
 
 TEST(Case, TrianglesAreCheckedWithTheRest) {
-  const std::string good = case_template({"explicit", "delaunay"});
+  const std::string sound = case_template({"explicit", "delaunay"});
   const auto with = [&](const std::string& old, const std::string& replacement) {
-    std::string text = good;
+    std::string text = sound;
     const auto at = text.find(old);
     EXPECT_NE(at, std::string::npos) << old;
     return complaint(text.replace(at, old.size(), replacement));

@@ -135,10 +135,11 @@ TEST(GhostFacets, AnEdgeOfTheGridWithoutAConditionIsAnEmptyNeighbour) {
   fill<2>(active, *space, {{0, 0}, {3, 3}}, 0);
   const auto list = bodies<2>();
   EXPECT_EQ(ghost_facets<2>(*space, active, list, no_edges).size(), 12U);
-  EXPECT_EQ(ghost_facets<2>(*space, active, list, {true, true, true, true}).size(), 0U);
+  EXPECT_EQ(ghost_facets<2>(*space, active, list, std::array<bool, 4>{true, true, true, true}).size(), 0U);
   // Lower y edge held: cells (1, 0) and (1, 1) are inner ones, so only the facet between them is not
   // penalised.
-  const auto set = places(*space, ghost_facets<2>(*space, active, list, {false, false, true, false}));
+  const auto set =
+      places(*space, ghost_facets<2>(*space, active, list, std::array<bool, 4>{false, false, true, false}));
   EXPECT_EQ(set.size(), 11U);
   EXPECT_EQ(set.count({1, 0, 1}), 0U);
 }
