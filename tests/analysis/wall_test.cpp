@@ -1,4 +1,4 @@
-// Walls in quasi-static and dynamic steps: exact states at any angle, Newton's rate, reactions.
+// Walls in quasi-static and dynamic steps: exact states at any angle, no creep, Newton's rate, reactions.
 #include <gtest/gtest.h>
 
 #include "analysis/fixtures.h"
@@ -62,6 +62,32 @@ TEST(Walls, AContainedSquareIsExact) {
     EXPECT_LT((model.reactions[3] + force * Vec<2>(cosine, sine)).norm(), tolerance) << "step " << k;
     EXPECT_LT((model.reactions[0] + model.reactions[3]).norm(), tolerance);
   }
+}
+
+/// Under a load that stays, a body that has come to rest stays: what walls carry is gathered. Otherwise every
+/// step would let it slip by what carries the load, (3/4) delta of the strain at the wall.
+TEST(Walls, NothingCreepsUnderASteadyLoad) {
+  LinearElastic law;
+  law.young_modulus = 1e6, law.poisson_ratio = 0.3, law.density = 1000.0;
+  ModelOptions o = square_on_grid(law, false);
+  add_wall(o, "support", {0, 1}, {0, 0}, WallKind::fixed).delta = 0.1;
+  Curve factor;
+  factor.times = {0.0, 0.1, 1.0}, factor.values = {0.0, 1.0, 1.0};
+  add_gravity(o, {0.3, -1.0}, factor);
+  Model<2> model(o);
+  Implicit<2> analysis(model, QuasiStaticOptions{.steps = 10});
+  std::vector<double> moved;  // mean of the points' displacement over a step
+  Vec<2> last = Vec<2>::Zero();
+  for (int k = 0; k < 10; ++k) {
+    analysis.step(analysis.time_step());
+    Vec<2> mean = Vec<2>::Zero();
+    const auto& points = model.bodies[0].points;
+    for (const auto& u : points.displacement) mean += u / static_cast<double>(points.size());
+    moved.push_back((mean - last).norm());
+    last = mean;
+    EXPECT_LT((model.reactions[0] - Vec<2>(-300.0, 1000.0)).norm(), 1e-3 * 1000.0);
+  }
+  EXPECT_LT(moved.back(), 2e-3 * moved.front());
 }
 
 TEST(Walls, FiniteDeformationConvergesQuadratically) {
