@@ -12,7 +12,7 @@ using namespace analysis_test;
 constexpr double E = 1e5, rho = 1000.0, g = 10.0, h = 0.1;
 
 /// A square of `cells` cells on a straight wall, turned by `degrees`; its points are sampled in the grid's
-/// cells.
+/// cells, so level with the grid they reach down to the wall if that is at a half of a cell.
 ModelOptions on_wall(bool gimp, double degrees, double y = 0.53, int cells = 3) {
   auto o = on_grid<2>({0, 0}, {1.6, 1.6}, {16, 16}, gimp);
   const double a = degrees * std::numbers::pi / 180.0, side = cells * h;
@@ -113,33 +113,33 @@ TEST_P(Walls, FrictionStaysInCoulombsCone) {
 }
 
 TEST_P(Walls, CarryTheWeightAtRest) {
-  auto o = on_wall(GetParam().gimp, 0.0);
+  auto o = on_wall(GetParam().gimp, 0.0, 0.55);
   add_gravity(o, {0.0, -g}, ramp());
   o.gravity->factor.times = {0.0, 0.1};
   double force = 0.0;
   int steps = 0;
-  run(
-      o, 0.6,
-      [&](const Model<2>& model) {
-        if (model.time > 0.5) force += model.reactions[0][1] / (mass_of(model) * g), ++steps;
-      },
-      0.3);
+  run(o, 0.6, [&](const Model<2>& model) {
+    if (model.time > 0.2) force += model.reactions[0][1] / (mass_of(model) * g), ++steps;
+  });
   EXPECT_NEAR(force / steps, 1.0, 0.01);
 }
 
 TEST_P(Walls, WhichHoldStopTheMaterial) {
   for (const WallKind kind : {WallKind::fixed, WallKind::tangential}) {
-    auto o = on_wall(GetParam().gimp, 0.0);
+    auto o = on_wall(GetParam().gimp, 0.0, 0.55);
     wall_of(o).kind = kind, wall_of(o).unilateral = false;
     o.bodies[0].velocity = {0.05, 0.0};
     double least = 0.05;
     run(o, 0.3, [&](const Model<2>& model) { least = std::min(least, momentum(model)[0] / mass_of(model)); });
-    EXPECT_LT(least, 0.0) << choice_name(kind);  // it sways back
+    // Held it sways back. A stop along the wall alone turns it: of a rigid square's speed the impulse takes
+    // 0.4, of an elastic one's up to twice that.
+    EXPECT_LT(least, kind == WallKind::fixed ? 0.0 : 0.6 * 0.05) << choice_name(kind);
+    EXPECT_GT(least, kind == WallKind::fixed ? -0.05 : 0.15 * 0.05) << choice_name(kind);
   }
 }
 
 TEST_P(Walls, ThatMovePushTheBodyAlong) {
-  auto o = on_wall(GetParam().gimp, 0.0);
+  auto o = on_wall(GetParam().gimp, 0.0, 0.55);
   RigidMotionOptions motion;
   motion.velocity = {Curve(0.0), Curve(0.2)};
   wall_of(o).motion = motion;
@@ -154,7 +154,7 @@ TEST_P(Walls, ThatMovePushTheBodyAlong) {
 }
 
 TEST_P(Walls, ThatHoldAMovingRollerKeepTheBodyAtIt) {
-  auto o = on_wall(GetParam().gimp, 0.0);
+  auto o = on_wall(GetParam().gimp, 0.0, 0.55);
   wall_of(o).unilateral = false;
   RigidMotionOptions motion;
   motion.velocity = {Curve(0.0), Curve(-0.2)};  // away from the body: it has to pull

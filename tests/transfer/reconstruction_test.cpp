@@ -38,7 +38,7 @@ Body<2> random_body(int n, const StressField& field) {
   for (int c = 0; c < n * n; ++c)
     for (int k = 0; k < 16; ++k) {
       // Four in each quarter that a split into four triangles makes.
-      const double u = share(random), v = share(random) * (1.0 - std::abs(2.0 * u - 1.0)) * 0.49 + 0.005;
+      const double u = share(random), v = share(random) * std::min(u, 1.0 - u);
       const Vec<2> local = k % 4 == 0   ? Vec<2>(u, v)
                            : k % 4 == 1 ? Vec<2>(1.0 - v, u)
                            : k % 4 == 2 ? Vec<2>(u, 1.0 - v)
@@ -121,7 +121,12 @@ TEST(Reconstruction, OfConstantStressLeavesNoForceInside) {
         EXPECT_LT(f[static_cast<std::size_t>(i)].norm(), 1e-13);
         points_only = std::max(points_only, std::abs(sums[static_cast<std::size_t>(i * sums_stride<2> + 3)]));
       }
-    EXPECT_GT(points_only, 0.05) << "which the points by themselves do not manage";
+    // Equal shares of a triangle integrate the constant gradients of linear functions exactly.
+    const bool constant_gradients =
+        !space->structured() && space->n_functions() == space->triangulation().n_vertices();
+    if (!constant_gradients) {
+      EXPECT_GT(points_only, 0.05) << "which the points by themselves do not manage";
+    }
   }
 }
 
@@ -148,7 +153,7 @@ TEST(Reconstruction, GivesTheDivergenceTimesTheFunctionsIntegralOnTriangles) {
       const auto k = static_cast<std::size_t>(i);
       EXPECT_GT(a[k][0], 0.0);
       EXPECT_NEAR(a[k][1], 0.0, 1e-13);
-      EXPECT_NEAR(b[k][1], 2.0 * a[k][0], 1e-13);
+      EXPECT_NEAR(b[k][1], 2.0 * a[k][0], 1e-12);  // stresses up to 19
       EXPECT_NEAR(b[k][0], 0.0, 1e-12);
     }
   }
