@@ -33,7 +33,7 @@ struct WallOptions {
   std::optional<RigidMotionOptions> motion;
   WallMode mode = WallMode::consistent;
   std::optional<double> delta;
-  double ghost = 1e-2;
+  double ghost = 3e-2;  // at least 9/4 of delta: see the theory page
   bool unilateral = false;
   double friction = 0.0;
 

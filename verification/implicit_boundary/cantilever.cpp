@@ -63,7 +63,7 @@ std::vector<VerificationRow> figure_18(const VerificationRequest& request) {
   std::vector<FigureColumn> columns(1, {"body force [N/mm2]", {}});
   for (int k = 1; k <= steps; ++k) columns[0].values.push_back(full_load * k / steps);
   double upright = 0.0;
-  for (const double ghost : {1e-2, 0.0})
+  for (const double ghost : {3e-2, 0.0})
     for (const double angle : {0.0, 45.0, 90.0}) {
       SquareCase square;
       square.angle = angle, square.h = 2.0, square.points = request.full ? 10 : 5, square.ghost = ghost;
@@ -75,7 +75,8 @@ std::vector<VerificationRow> figure_18(const VerificationRequest& request) {
       if (ghost > 0 && angle == 0.0) upright = row.computed;
       if (ghost > 0 && angle != 0.0) {
         row.reference = "converged", row.expected = upright;
-        row.tolerance = angle == 90.0 ? 1e-3 : 0.02, row.gated = true;
+        // The edges cut their cells elsewhere at every angle, so only discretisation makes a difference.
+        row.tolerance = 0.01, row.gated = true;
       }
       rows.push_back(row);
       path.tip.resize(steps, std::numeric_limits<double>::quiet_NaN());
