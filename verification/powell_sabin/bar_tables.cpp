@@ -82,8 +82,8 @@ std::vector<VerificationRow> table_4_3(const VerificationRequest& request) {
   reconstructed.computed = error_of_table(16, true, 16, 14, true);
   reconstructed.gated = true, reconstructed.verdict = reconstructed.computed < c.error.back();
   rows.push_back(reconstructed);
-  // The floor: more points in the last row.
-  double before = c.error.back();
+  // The floor: more points in the last row lower it, until the space and the time step decide.
+  const double floor = c.error.back();
   struct Finer {
     int points, across, per_triangle;
     bool only_full;
@@ -95,8 +95,7 @@ std::vector<VerificationRow> table_4_3(const VerificationRequest& request) {
     row.quantity = "L2 error of the displacement (m2)";
     if (f.per_triangle == 90) row.published = published.at({"90", "17"}, "E_u");
     row.computed = error_of_table(16, true, f.points, f.across);
-    row.gated = true, row.verdict = row.computed < before;
-    before = row.computed;
+    row.gated = true, row.verdict = row.computed < floor;
     rows.push_back(row);
   }
   return rows;
