@@ -25,7 +25,7 @@ stop() {
 # Compilers at work at a time: one per core, and at least 1.5 GB of memory for each.
 compilers() {
   local cores memory
-  cores=$(nproc)
+  cores=$(env -u OMP_NUM_THREADS nproc)  # or it would answer with the threads of a program, one
   memory=$(awk '/^MemAvailable/ { print int($2 / 1500000) }' /proc/meminfo 2>/dev/null || true)
   if [ -n "$memory" ] && [ "$memory" -lt "$cores" ]; then cores=$memory; fi
   if [ "$cores" -lt 1 ]; then cores=1; fi
