@@ -409,6 +409,10 @@ class Checks {
       context_.fail_at(at("pic_fraction"), "only for velocity_update = \"flip\"");
     if (e.updated_gradients && e.stress_update != StressUpdate::usf)
       context_.fail_at(at("updated_gradients"), "only for stress_update = \"usf\"");
+    const auto is_wall = [](const AnyBoundaryOptions& b) { return std::holds_alternative<WallOptions>(b); };
+    if (e.damping > 0 && std::any_of(case_.boundaries.begin(), case_.boundaries.end(), is_wall))
+      context_.fail_at(at("damping"),
+                       "not beside walls: it would also damp the forces that they carry; use pic_fraction");
     const auto no_waves = [](const BodyOptions& b) { return !(p_wave_modulus(b.material) > 0.0); };
     if (!first && std::all_of(case_.bodies.begin(), case_.bodies.end(), no_waves))
       context_.fail_at(

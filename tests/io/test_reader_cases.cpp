@@ -1,6 +1,9 @@
 // Malformed cases: what is said, and where. Each is the good case below with one thing changed.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include <filesystem>
 
 #include "core/error.h"
@@ -161,6 +164,16 @@ TEST(Case, EveryTemplateIsAValidCase) {
       const std::string text = case_template({"explicit", grid, basis});
       EXPECT_EQ(complaint(text), "(no error)") << text;
     }
+}
+
+TEST(Case, LocalDampingIsRefusedBesideWalls) {
+  std::ifstream file(std::string(WISP_SOURCE_DIR) + "/examples/14-incline-with-friction/case.toml");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  ASSERT_EQ(complaint(text), "(no error)");
+  const std::string stage = "type = \"explicit\"\n";
+  ASSERT_NE(text.find(stage), std::string::npos);
+  text.insert(text.find(stage) + stage.size(), "damping = 0.1\n");
+  EXPECT_NE(complaint(text).find("[stage] damping: not beside walls"), std::string::npos) << complaint(text);
 }
 
 TEST(Case, TrianglesAreCheckedWithTheRest) {
