@@ -11,6 +11,8 @@
 
 #include "io/case.h"
 
+#include "io/temporary_folder.h"
+
 namespace wisp {
 namespace {
 
@@ -21,28 +23,17 @@ struct Outcome {
   std::string out, err;
 };
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// An empty folder for one test; programs run inside it.
 class Program : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "wisp-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    base_ = pattern;
-    folder_ = base_ / "work";
-    fs::create_directory(folder_);
-  }
-  void TearDown() override { fs::remove_all(base_); }
+  void SetUp() override { fs::create_directory(folder_); }
 
   Outcome wisp(const std::string& arguments) {
     const std::string command = "cd '" + folder_.string() + "' && '" + WISP_PROGRAM + "' " + arguments +
                                 " > '" + (base_ / "out").string() + "' 2> '" + (base_ / "err").string() + "'";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(base_ / "out"), content(base_ / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, test::contents(base_ / "out"),
+            test::contents(base_ / "err")};
   }
 
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
@@ -62,7 +53,8 @@ class Program : public testing::Test {
     EXPECT_EQ(files(), before) << arguments;
   }
 
-  fs::path base_, folder_;
+  test::TemporaryFolder base_;
+  const fs::path folder_ = base_ / "work";
 };
 
 TEST_F(Program, ChecksAValidCase) {
