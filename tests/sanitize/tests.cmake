@@ -17,8 +17,8 @@ function(wisp_unit_test name)
     endif()
   endif()
 endfunction()
-# Left out under the sanitizers, where a step costs a hundred times as much: long runs that measure rates, periods,
-# momenta and allocations (half a second or more each in the Release build, which runs them all). The shorter tests of
+# Left out under the sanitizers, where a step costs a hundred times as much: long runs that measure rates, periods
+# and momenta (half a second or more each in the Release build, which runs them all). The shorter tests of
 # the room run through the same code.
 set(wisp_slow_analysis
   Vortex.ConvergesUnderRefinement
@@ -26,8 +26,7 @@ set(wisp_slow_analysis
   Triangles.TranslationIsExactAndStressFree
   Triangles.BarVibratesWithTheExactPeriod
   VibratingBar.HasItsFrequencyAndAmplitudeInEveryExplicitScheme
-  Collision.OfTwoDiscsKeepsTheMomentumAndTurnsThemBack
-  Allocations.NoneInExplicitSteps)
+  Collision.OfTwoDiscsKeepsTheMomentumAndTurnsThemBack)
 foreach(room IN LISTS WISP_ROOMS)
   if(TARGET test_${room})
     wisp_unit_test(${room})
