@@ -181,6 +181,7 @@ class Run {
   void check_balance(Explicit<dim>& analysis, const EnergyRecord& record, double work);
   template <class Analysis>
   [[noreturn]] void stop(Analysis& analysis, const std::string& cause);
+  void keep_start();
   void add_row(std::int64_t step, double time, Row<dim> row);
   void add_state() {
     if (state_step_ == model_.step) return;
@@ -244,7 +245,28 @@ void Run<dim>::stop(Analysis& analysis, const std::string& cause) {
   if (checkpoint_step_ >= 0)
     run_error("{}; the last good state is the checkpoint of step {} at t = {:.6g} s: wisp resume {}", cause,
               checkpoint_step_, checkpoint_time_, folder_.string());
-  run_error("{}; no state but the start is kept: set checkpoint_every in [output]", cause);
+  keep_start();
+  run_error("{}; no state but the start is kept (checkpoint_every in [output] keeps more): wisp resume {}",
+            cause, folder_.string());
+}
+
+/// The start of the run, made anew from the case: steps change the points in place, and a copy of them would
+/// cost every run time and memory.
+template <int dim>
+void Run<dim>::keep_start() {
+  Model<dim> start(model_options(case_));
+  Checkpoint checkpoint;
+  store(start, checkpoint);
+  store_case(case_.file, begun_, checkpoint);
+  checkpoint.set_integer("stage", 0);
+  checkpoint.set_integer("step in stage", 0);
+  checkpoint.set_number("stage start", start.time);
+  checkpoint.set_integer("last row", -1);
+  checkpoint.set_number("energy at the start", balance_.start());
+  checkpoint.set_number("energy given", balance_.start());
+  for (const char* empty : {"first energy", "warm velocity", "warm acceleration"})
+    checkpoint.set(empty, Checkpoint::Doubles{});
+  results_->add_checkpoint(checkpoint);
 }
 
 template <int dim>
