@@ -153,7 +153,7 @@ class Run {
   template <class Analysis>
   void add_checkpoint(Analysis& analysis, bool stage_is_over);
   void add_last_row(Explicit<dim>& analysis);
-  void measure_spectrum(Mass mass, Row<dim>& row);
+  void measure_spectrum(const ExplicitOptions& options, Row<dim>& row);
 
   bool row_due() const {
     return results_->last_row() < model_.step && model_.step % case_.output.history_every == 0;
@@ -349,19 +349,19 @@ void Run<dim>::add_last_row(Explicit<dim>& analysis) {
   Row<dim> row;
   row.dt = last_dt_;
   if (case_.output.energies) analysis.measure(row.energy);
-  measure_spectrum(analysis.options().mass, row);
+  measure_spectrum(analysis.options(), row);
   row.reactions = model_.reactions;
   row.tracked = tracked_.now(model_);
   add_row(model_.step, model_.time, row);
 }
 
 template <int dim>
-void Run<dim>::measure_spectrum(Mass mass, Row<dim>& row) {
+void Run<dim>::measure_spectrum(const ExplicitOptions& options, Row<dim>& row) {
   const OutputOptions& output = case_.output;
   if (!output.condition_numbers && !output.critical_time_step) return;
   const auto timer = model_.timers.start("condition number, critical time step");
   model_.settle();
-  ExplicitSpectrum<dim> spectrum(model_, mass);
+  ExplicitSpectrum<dim> spectrum(model_, options);
   if (output.condition_numbers) row.condition = spectrum.condition();
   if (output.critical_time_step) row.critical_time_step = spectrum.critical_time_step();
 }
@@ -385,7 +385,7 @@ void Run<dim>::stage(const ExplicitOptions& options) {
     const std::int64_t step = model_.step;
     const bool row_is_due = row_due(), energies = row_is_due && case_.output.energies;
     Row<dim> row;
-    if (row_is_due) row.tracked = tracked_.now(model_), measure_spectrum(options.mass, row);
+    if (row_is_due) row.tracked = tracked_.now(model_), measure_spectrum(options, row);
     row.dt = last_dt_ = analysis.time_step(stage_end());
     try {
       analysis.step(row.dt, energies ? &row.energy : nullptr);
