@@ -297,7 +297,6 @@ class Checks {
 
   void boundary(const WallOptions& w, std::size_t i) {
     const auto at = [&](std::string_view key) { return place("boundary", i, key); };
-    if (!grid_) context_.fail_at(at("type"), "walls need a structured grid; on triangles hold a named part");
     if (!w.displacement.empty() && !w.velocity.empty())
       context_.fail_at(at("velocity"), "give either displacement or velocity");
     const Block<dim> box = located(context_, place("boundary", i, "shape"),
@@ -410,7 +409,11 @@ class Checks {
     if (e.updated_gradients && e.stress_update != StressUpdate::usf)
       context_.fail_at(at("updated_gradients"), "only for stress_update = \"usf\"");
     const auto is_wall = [](const AnyBoundaryOptions& b) { return std::holds_alternative<WallOptions>(b); };
-    if (e.damping > 0 && std::any_of(case_.boundaries.begin(), case_.boundaries.end(), is_wall))
+    const bool walls = std::any_of(case_.boundaries.begin(), case_.boundaries.end(), is_wall);
+    if (walls && !grid_)
+      context_.fail_at(place("stage", i, "type"),
+                       "explicit stages have walls on structured grids only; on triangles hold a named part");
+    if (e.damping > 0 && walls)
       context_.fail_at(at("damping"),
                        "not beside walls: it would also damp the forces that they carry; use pic_fraction");
     const auto no_waves = [](const BodyOptions& b) { return !(p_wave_modulus(b.material) > 0.0); };
