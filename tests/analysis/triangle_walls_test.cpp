@@ -3,6 +3,7 @@
 #include <random>
 
 #include "analysis/triangle_samples.h"
+#include "transfer/mass.h"
 
 namespace wisp {
 namespace {
