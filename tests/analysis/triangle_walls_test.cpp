@@ -193,6 +193,42 @@ TEST(TriangleWalls, ImplicitDynamicsFollowsAMovingWall) {
   }
 }
 
+/// A press goes through whole triangles: they become empty, neighbours stand in, and what it has gathered goes
+/// along. Between smooth walls the compression is uniform, tau = M ln(1 - 0.3), on a height of 1.
+TEST(TriangleWalls, AWallThatMovesThroughTrianglesKeepsHolding) {
+  for (const auto& basis : bases()) {
+    Hencky law;
+    law.young_modulus = 1e6, law.poisson_ratio = 0.3, law.density = 1000.0;
+    ModelOptions o = square(law, basis, true);
+    o.bodies[0].sampling.points_per_cell = 3;
+    add_wall(o, "left", {0, 1}, {0, 0}, WallKind::roller);
+    add_wall(o, "base", {0, 0}, {1, 0}, WallKind::roller);
+    add_wall(o, "top", {1, 1}, {0, 1}, WallKind::roller);
+    auto& press = add_wall(o, "press", {1, 0}, {1, 1}, WallKind::roller);
+    press.motion = RigidMotionOptions{};
+    press.motion->displacement = {ramp(-0.3 * cosine), ramp(-0.3 * sine)};
+    Model<2> model(o);
+    Implicit<2> analysis(model, QuasiStaticOptions{.steps = 10});
+    const Vec<2> along(cosine, sine);
+    double extrapolated = 0.0;
+    for (int k = 1; k <= 10; ++k) {
+      analysis.step(analysis.time_step());
+      const auto& wall = std::get<Wall<2>>(model.boundaries[3]);
+      EXPECT_NEAR(wall.coverage().held, 1.0, 1e-9) << basis.index() << ", step " << k;
+      extrapolated += wall.coverage().extrapolated;
+      // Cut points may begin next to the wall, which holds the mean of a part: a hundredth of a triangle's side.
+      double farthest = 0.0;
+      for (const auto& x : model.bodies[0].points.position) farthest = std::max(farthest, along.dot(x));
+      EXPECT_LT(farthest, 1.0 - 0.03 * k + 0.01 * 0.3) << basis.index() << ", step " << k;
+      EXPECT_LT((model.reactions[0] + model.reactions[3]).norm(), 1e-6 * model.reactions[3].norm());
+      const double stretch = 1.0 - 0.03 * k, exact = law.p_wave_modulus() * std::log(stretch) / stretch;
+      EXPECT_NEAR(model.reactions[3].dot(along), exact, 0.03 * std::abs(exact))
+          << basis.index() << ", step " << k;
+    }
+    EXPECT_GT(extrapolated, 0.0) << basis.index();
+  }
+}
+
 TEST(TriangleWalls, ExplicitStagesSayThatTheyHaveNone) {
   ModelOptions o = square(elastic(), LinearOptions{}, false);
   add_wall(o, "support", {0, 1}, {0, 0}, WallKind::roller);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/spectra.h"
+#include "core/error.h"
 #include "verification/implicit_boundary/exact_cases.h"
 #include "verification/implicit_boundary/list.h"
 #include "verification/published.h"
@@ -185,13 +186,14 @@ struct Sheared {
 
 /// The block of section 5.3 at an angle: sheared by 10 mm between a fixed support, which lies at `place` in
 /// units of h beyond a grid line, a moving end, and two sides that keep their length.
-Sheared shear(double angle, double place, bool splines, const SolverOptions& solver, bool condition) {
+Sheared shear(Mesh mesh, double angle, double place, bool splines, const SolverOptions& solver, bool condition,
+              std::optional<double> ghost = {}) {
   SquareCase square;
-  square.angle = angle, square.h = 20.0;
-  ModelOptions o = block_options(square, Mesh::blocks, splines);
-  auto& blocks = std::get<TriangleBlocksOptions>(*o.triangulation);
-  for (std::size_t d = 0; d < 2; ++d)
-    blocks.lower[d] -= place * square.h, blocks.upper[d] -= place * square.h;
+  square.angle = angle, square.h = 20.0, square.ghost = ghost;
+  ModelOptions o = square_options(square);
+  for (std::size_t d = 0; d < 2; ++d) o.grid.lower[d] -= place * square.h, o.grid.upper[d] -= place * square.h;
+  triangulate(o, mesh, splines, square.h);
+  o.bodies.front().sampling = cut_points(splines);
   o.solver = solver;
   add_wall(o, square, "support", {0, side}, {0, 0}, WallKind::fixed);
   add_wall(o, square, "base", {0, 0}, {side, 0}, WallKind::tangential);
@@ -213,28 +215,34 @@ Sheared shear(double angle, double place, bool splines, const SolverOptions& sol
   return result;
 }
 
+/// Which stop where they meet a direction of negative energy.
+SolverOptions conjugate_gradients() {
+  SolverOptions o;
+  o.solver = SolverKind::iterative, o.max_iterations = 5000, o.tolerance = 1e-12;
+  o.petsc_options = "-ksp_type cg -pc_type jacobi";
+  return o;
+}
+
 /// With the defaults the stiffness stays well conditioned wherever walls and the outline cut the triangles,
 /// and plain conjugate gradients find what the direct solver finds.
 std::vector<VerificationRow> condition(const VerificationRequest& request) {
   std::vector<VerificationRow> rows;
-  SolverOptions direct, cg;
+  SolverOptions direct;
   direct.solver = SolverKind::direct;
-  cg.solver = SolverKind::iterative, cg.max_iterations = 5000;
-  cg.tolerance = 1e-12;
-  cg.petsc_options = "-ksp_type cg -pc_type jacobi";
   FigureColumn place{
       "position of the support [h]",
       {0.0, 1e-6, 1e-4, 1e-3, 0.01, 0.05, 0.2, 0.35, 0.49, 0.499, 0.5, 0.65, 0.8, 0.95, 0.999}};
   std::vector<FigureColumn> columns{place};
   for (const bool splines : {false, true})
-    for (const double angle : {0.0, 30.0}) {
-      FigureColumn column{fmt::format("{}, {:g} degrees", name_of(splines), angle), {}};
+    for (const auto& [mesh, angle] :
+         {std::pair{Mesh::blocks, 0.0}, {Mesh::blocks, 30.0}, {Mesh::delaunay, 30.0}}) {
+      FigureColumn column{fmt::format("{}, {}, {:g} degrees", name_of(splines), name_of(mesh), angle), {}};
       double worst = 0.0, worst_of_cg = 0.0;
       for (const double x : place.values) {
-        const Sheared s = shear(angle, x, splines, direct, true);
+        const Sheared s = shear(mesh, angle, x, splines, direct, true);
         column.values.push_back(s.condition), worst = std::max(worst, s.error);
         if (x == 0.0 || x == 1e-4 || x == 0.2 || x == 0.499 || x == 0.999)
-          worst_of_cg = std::max(worst_of_cg, shear(angle, x, splines, cg, false).error);
+          worst_of_cg = std::max(worst_of_cg, shear(mesh, angle, x, splines, conjugate_gradients(), false).error);
       }
       VerificationRow row;
       row.case_name = fmt::format("{}, {} positions", column.title, place.values.size());
@@ -258,6 +266,37 @@ std::vector<VerificationRow> condition(const VerificationRequest& request) {
   return rows;
 }
 
+/// Whether conjugate gradients find the stiffness positive at positions of a wall around the worst ones.
+bool positive(bool splines, double ghost) {
+  try {
+    for (const double x : {1e-6, 1e-4, 1e-3, 0.005, 0.01, 0.02, 0.03, 0.0375, 0.05, 0.07, 0.1})
+      shear(Mesh::blocks, 0.0, x, splines, conjugate_gradients(), false, ghost);
+  } catch (const RunError&) {
+    return false;
+  }
+  return true;
+}
+
+/// The least Ghost that keeps a wall's stiffness positive definite, as docs/theory/implicit-boundaries.md derives
+/// it for the sliver that a wall leaves beside an edge: enough, and a twentieth of it is not.
+std::vector<VerificationRow> ghost_bounds(const VerificationRequest&) {
+  std::vector<VerificationRow> rows;
+  constexpr double height = 10.0, edge = 20.0;  // mm, of triangles of a block of 20 mm
+  for (const bool splines : {false, true}) {
+    const double bound = splines ? 45.0 / 4.0 * std::pow(5e-2 * height / edge, 3) : 9.0 / 4.0 * 1e-2;
+    for (const double share : {1.0, 0.05}) {
+      VerificationRow row;
+      row.case_name = fmt::format("{}, Ghost of {:g} times {:.3g}", name_of(splines), share, bound);
+      row.quantity = "positive definite at 11 positions (1) or not (0)";
+      row.reference = "exact", row.expected = share == 1.0 ? 1.0 : 0.0;
+      row.computed = positive(splines, share * bound) ? 1.0 : 0.0;
+      row.tolerance = 0.0, row.gated = true;
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<VerificationTable> triangle_wall_tables() {
@@ -265,7 +304,8 @@ std::vector<VerificationTable> triangle_wall_tables() {
       {"implicit-boundary.triangle-block", "Contained block on triangulations", contained_block, false},
       {"implicit-boundary.triangle-rates", "Manufactured solution on triangulations: rates", rates, false},
       {"implicit-boundary.triangle-cylinder", "Thick cylinder on a triangulation", cylinders, false},
-      {"implicit-boundary.triangle-condition", "Condition numbers on triangulations", condition, false}};
+      {"implicit-boundary.triangle-condition", "Condition numbers on triangulations", condition, false},
+          {"implicit-boundary.triangle-ghost", "Least Ghost of walls on triangulations", ghost_bounds, false}};
 }
 
 }  // namespace wisp
