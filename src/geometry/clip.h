@@ -49,7 +49,7 @@ ClippedTriangle whole_triangle(const std::array<Eigen::Vector2d, 3>& corners);
 /// Three points that, with a third of the area each, integrate polynomials of degree 2 over what is left:
 /// they have its centroid and covariance. In a triangle this is Gauss' rule of 3 inner points; they lie in
 /// every convex part, on the largest of the ellipses like its ellipse of inertia that fit for certain
-/// (Kannan, Lovasz and Simonovits 1995, theorem 4.1). None for a part without thickness.
+/// (Kannan et al. 1995, theorem 4.1). None for a part without thickness.
 std::vector<Eigen::Vector2d> gauss_points(const ClippedTriangle& part);
 
 }  // namespace wisp

@@ -191,6 +191,17 @@ class Checks {
                               text<dim>(upper())));
   }
 
+  /// Points that are cut on triangles.
+  void on_triangles(const BodyOptions& body, const std::string& path) {
+    const Sampling& s = body.sampling;
+    if (s.method != SamplingMethod::cells && s.method != SamplingMethod::gauss)
+      context_.fail_at(path, "points on triangles are cut with method \"cells\" or \"gauss\" only");
+    if (s.volumes == PointVolumes::voronoi)
+      context_.fail_at(path + ".volumes", "cut points have what the cut leaves: give volumes = \"share\"");
+    if (std::holds_alternative<MeshShape>(body.shape))
+      context_.fail_at(path, "the triangles of a mesh are not cut; give a polygon");
+  }
+
   void sampling(const BodyOptions& body, std::size_t i) {
     const std::string path = place("body", i, "sampling");
     for (const char* sampled : {"method", "points_per_cell", "divisions", "clip", "cuts"})
@@ -201,13 +212,10 @@ class Checks {
       context_.fail_at(path + ".method", "random points need a grid of triangles");
     if (!triangles && body.sampling.volumes == PointVolumes::voronoi)
       context_.fail_at(path + ".volumes", "Voronoi volumes need a grid of triangles");
-    if (triangles && body.sampling.method == SamplingMethod::gauss)
-      context_.fail_at(path + ".method", "Gauss positions need a structured grid");
     const bool cut = body.sampling.clip || !body.sampling.cuts.empty();
     if (cut && std::holds_alternative<Ball>(body.shape))
       context_.fail_at(path, "points cannot be cut at a ball; give a polygon (2D), or clip = false");
-    if (cut && triangles)
-      context_.fail_at(path, "points are cut on structured grids only; give volumes = \"voronoi\"");
+    if (cut && triangles) on_triangles(body, path);
     for (std::size_t k = 0; k < body.sampling.cuts.size(); ++k)
       if (body.sampling.cuts[k].size() != 2 * dim)
         context_.fail_at(fmt::format("{}.cuts[{}]", path, k),

@@ -193,8 +193,8 @@ TEST(TriangleWalls, ImplicitDynamicsFollowsAMovingWall) {
   }
 }
 
-/// A press goes through whole triangles: they become empty, neighbours stand in, and what it has gathered goes
-/// along. Between smooth walls the compression is uniform, tau = M ln(1 - 0.3), on a height of 1.
+/// A press goes through whole triangles: they become empty, neighbours stand in, and what it has gathered
+/// goes along. Between smooth walls the compression is uniform, tau = M ln(1 - 0.3), on a height of 1.
 TEST(TriangleWalls, AWallThatMovesThroughTrianglesKeepsHolding) {
   for (const auto& basis : bases()) {
     Hencky law;
@@ -216,7 +216,8 @@ TEST(TriangleWalls, AWallThatMovesThroughTrianglesKeepsHolding) {
       const auto& wall = std::get<Wall<2>>(model.boundaries[3]);
       EXPECT_NEAR(wall.coverage().held, 1.0, 1e-9) << basis.index() << ", step " << k;
       extrapolated += wall.coverage().extrapolated;
-      // Cut points may begin next to the wall, which holds the mean of a part: a hundredth of a triangle's side.
+      // Cut points may begin next to the wall, which holds the mean of a part: a hundredth of a triangle's
+      // side.
       double farthest = 0.0;
       for (const auto& x : model.bodies[0].points.position) farthest = std::max(farthest, along.dot(x));
       EXPECT_LT(farthest, 1.0 - 0.03 * k + 0.01 * 0.3) << basis.index() << ", step " << k;

@@ -186,12 +186,13 @@ struct Sheared {
 
 /// The block of section 5.3 at an angle: sheared by 10 mm between a fixed support, which lies at `place` in
 /// units of h beyond a grid line, a moving end, and two sides that keep their length.
-Sheared shear(Mesh mesh, double angle, double place, bool splines, const SolverOptions& solver, bool condition,
-              std::optional<double> ghost = {}) {
+Sheared shear(Mesh mesh, double angle, double place, bool splines, const SolverOptions& solver,
+              bool condition, std::optional<double> ghost = {}) {
   SquareCase square;
   square.angle = angle, square.h = 20.0, square.ghost = ghost;
   ModelOptions o = square_options(square);
-  for (std::size_t d = 0; d < 2; ++d) o.grid.lower[d] -= place * square.h, o.grid.upper[d] -= place * square.h;
+  for (std::size_t d = 0; d < 2; ++d)
+    o.grid.lower[d] -= place * square.h, o.grid.upper[d] -= place * square.h;
   triangulate(o, mesh, splines, square.h);
   o.bodies.front().sampling = cut_points(splines);
   o.solver = solver;
@@ -242,7 +243,8 @@ std::vector<VerificationRow> condition(const VerificationRequest& request) {
         const Sheared s = shear(mesh, angle, x, splines, direct, true);
         column.values.push_back(s.condition), worst = std::max(worst, s.error);
         if (x == 0.0 || x == 1e-4 || x == 0.2 || x == 0.499 || x == 0.999)
-          worst_of_cg = std::max(worst_of_cg, shear(mesh, angle, x, splines, conjugate_gradients(), false).error);
+          worst_of_cg =
+              std::max(worst_of_cg, shear(mesh, angle, x, splines, conjugate_gradients(), false).error);
       }
       VerificationRow row;
       row.case_name = fmt::format("{}, {} positions", column.title, place.values.size());
@@ -277,8 +279,8 @@ bool positive(bool splines, double ghost) {
   return true;
 }
 
-/// The least Ghost that keeps a wall's stiffness positive definite, as docs/theory/implicit-boundaries.md derives
-/// it for the sliver that a wall leaves beside an edge: enough, and a twentieth of it is not.
+/// The least Ghost that keeps a wall's stiffness positive definite, as docs/theory/implicit-boundaries.md
+/// derives it for the sliver that a wall leaves beside an edge: enough, and a twentieth of it is not.
 std::vector<VerificationRow> ghost_bounds(const VerificationRequest&) {
   std::vector<VerificationRow> rows;
   constexpr double height = 10.0, edge = 20.0;  // mm, of triangles of a block of 20 mm
@@ -305,7 +307,7 @@ std::vector<VerificationTable> triangle_wall_tables() {
       {"implicit-boundary.triangle-rates", "Manufactured solution on triangulations: rates", rates, false},
       {"implicit-boundary.triangle-cylinder", "Thick cylinder on a triangulation", cylinders, false},
       {"implicit-boundary.triangle-condition", "Condition numbers on triangulations", condition, false},
-          {"implicit-boundary.triangle-ghost", "Least Ghost of walls on triangulations", ghost_bounds, false}};
+      {"implicit-boundary.triangle-ghost", "Least Ghost of walls on triangulations", ghost_bounds, false}};
 }
 
 }  // namespace wisp
