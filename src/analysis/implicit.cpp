@@ -82,8 +82,7 @@ void Implicit<dim>::set_up(double dt) {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       tabulate(space, model_.bodies[b].points, stencils_[b]);
     cells = active_cells(space, model_.bodies);
-    const auto& ghost = model_.options.stabilisation;
-    active_ = active_functions(space, ghost ? ghost_cells(space, cells, *ghost) : cells);
+    active_ = active_functions(space, ghost_options_ ? ghost_cells(space, cells, *ghost_options_) : cells);
     external_force(model_.time + dt, external_);
     external_force(model_.time, start_external_);
   }

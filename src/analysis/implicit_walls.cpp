@@ -3,19 +3,25 @@
 
 #include <algorithm>
 
+#include "boundary/wall_host.h"
+
 namespace wisp {
 
 /// Names the parts of a step, and chooses Ghost: as the case says, or for walls in their consistent form what
-/// they need.
+/// they need (docs/theory/implicit-boundaries.md). On triangulations that is Ghost on a ring around the body,
+/// which ties triangles that touch it in a vertex only.
 template <int dim>
 void Implicit<dim>::prepare() {
   ghost_options_ = model_.options.stabilisation;
   for_each<Wall, dim>(model_.boundaries, [&](const Wall<dim>& wall, std::size_t) {
     walls_ = true;
     const WallOptions& o = wall.options();
-    if (model_.options.stabilisation || o.mode == WallMode::literal || o.ghost == 0.0) return;
+    const bool triangles = !model_.space->structured();
+    const double ghost = o.ghost.value_or(on_splines(*model_.space) ? 0.1 : triangles ? 5e-2 : 3e-2);
+    if (model_.options.stabilisation || o.mode == WallMode::literal || ghost == 0.0) return;
     if (!ghost_options_) ghost_options_ = GhostOptions(), ghost_options_->stiffness = 0.0;
-    ghost_options_->stiffness = std::max(ghost_options_->stiffness, o.ghost);
+    if (triangles) ghost_options_->elements = GhostElements::ring;
+    ghost_options_->stiffness = std::max(ghost_options_->stiffness, ghost);
   });
   model_.timers.part("1 locate, stencils");
   model_.timers.part("2 ghost matrix");

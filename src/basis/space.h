@@ -52,11 +52,26 @@ class Space {
   int n_keys() const { return structured() ? n_functions() : n_cells(); }
   /// Whether points have domains (GIMP).
   bool domains() const { return domains_; }
+  /// The shortest side of a cell or height of a triangle, m.
+  double shortest_side() const {
+    return structured() ? grid_->shortest_side() : triangulation_->shortest_height();
+  }
   /// The least extent that a wave crosses in a cell, for time steps, m: the shortest side, or the shortest
   /// height of a triangle over the degree of its functions.
   double shortest_extent() const {
     if (structured()) return grid_->shortest_side();
     return triangulation_->shortest_height() / std::visit([](const auto& b) { return b.degree; }, basis_);
+  }
+  /// Corners of the box around the grid, m.
+  Vec<dim> lower() const {
+    if constexpr (dim == 2)
+      if (!structured()) return triangulation_->lower();
+    return grid_->lower();
+  }
+  Vec<dim> upper() const {
+    if constexpr (dim == 2)
+      if (!structured()) return triangulation_->upper();
+    return grid_->upper();
   }
 
   /// Functions a direction that the stencils of a basis with domains need: 3, or 5 for domains over a cell's

@@ -1,18 +1,22 @@
 // The grid's functions on walls: the polynomials of one cell, also continued beyond it.
 #pragma once
 #include <array>
+#include <span>
 
 #include "basis/space.h"
 
 namespace wisp {
 
-/// Values and gradients (1/m) at a point of the functions of one cell.
+/// Values and gradients (1/m) at a point of the functions of one cell; the first `n` entries count.
 template <int dim>
 struct CellFunctions {
-  static constexpr int n = dim == 2 ? 4 : 8;
-  std::array<int, n> function;  ///< local indices
-  std::array<double, n> phi;
-  std::array<Vec<dim>, n> dphi;
+  static constexpr int max_functions = dim == 2 ? 21 : 8;  // 21: cubic splines
+  int n = 0;
+  std::array<int, max_functions> function;  ///< local indices
+  std::array<double, max_functions> phi;
+  std::array<Vec<dim>, max_functions> dphi;
+
+  std::span<const int> functions() const { return {function.data(), static_cast<std::size_t>(n)}; }
 };
 
 /// The polynomials that the grid's multilinear functions are in a cell of the window, at a point in the cell
@@ -20,6 +24,7 @@ struct CellFunctions {
 template <int dim>
 CellFunctions<dim> cell_functions(const Space<dim>& space, const MultiIndex<dim>& cell, const Vec<dim>& x) {
   CellFunctions<dim> out;
+  out.n = 1 << dim;
   const auto& strides = space.window().node_strides();
   const int base = space.window().node_index(cell);
   Vec<dim> r, per_h;
@@ -27,7 +32,7 @@ CellFunctions<dim> cell_functions(const Space<dim>& space, const MultiIndex<dim>
     per_h[d] = space.grid().per_spacing(d)[cell[d]];
     r[d] = (x[d] - space.grid().line(d, cell[d])) * per_h[d];
   }
-  for (int k = 0; k < CellFunctions<dim>::n; ++k) {
+  for (int k = 0; k < out.n; ++k) {
     const auto at = static_cast<std::size_t>(k);
     int function = base;
     double phi = 1.0;
@@ -43,5 +48,13 @@ CellFunctions<dim> cell_functions(const Space<dim>& space, const MultiIndex<dim>
   }
   return out;
 }
+
+/// The sub-triangle of the split (2 edge + side) that holds a point of triangle t; 0 for functions that need
+/// no split.
+int sub_triangle(const Space<2>& space, int t, const Vec<2>& x);
+
+/// The polynomials that the functions of a triangulation are in a sub-triangle of triangle t, at a point in
+/// it or beyond it.
+CellFunctions<2> triangle_functions(const Space<2>& space, int t, int sub, const Vec<2>& x);
 
 }  // namespace wisp

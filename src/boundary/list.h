@@ -66,10 +66,7 @@ AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<di
                                const std::filesystem::path& folder = {}) {
   if (const auto* conforming = std::get_if<ConformingOptions>(&options))
     return Conforming<dim>(*conforming, space);
-  const auto& wall = std::get<WallOptions>(options);
-  if (!space.structured())
-    input_error("boundary '{}': walls need a structured grid; on triangles hold a named part", wall.label);
-  return Wall<dim>(wall, folder);
+  return Wall<dim>(std::get<WallOptions>(options), folder);
 }
 
 template <int dim>

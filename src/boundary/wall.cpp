@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "boundary/wall_host.h"
 #include "boundary/wall_memory.h"
 
 namespace wisp {
@@ -41,43 +42,6 @@ Mat<dim> axes(const Vec<dim>& n) {
 
 /// Chords of curved walls are this part of the shortest side of a cell, or less.
 constexpr double longest_chord = 0.25;
-
-/// The active cell whose functions a part of a wall uses: its host, or where that is empty the next active
-/// one along the normal within one cell's length. False if there is none.
-template <int dim>
-bool find_cell(const Space<dim>& space, const ActiveCells& active, const WallPart<dim>& part,
-               MultiIndex<dim>& cell, bool& extrapolated) {
-  const auto& grid = space.grid();
-  const auto& window = space.window();
-  const auto filled = [&](const MultiIndex<dim>& c) {
-    return window.cell_in_grid(c) && window.contains_cell(c) &&
-           active.bits[static_cast<std::size_t>(window.cell_index(c))] != 0;
-  };
-  cell = part.host;
-  extrapolated = false;
-  if (filled(cell)) return true;
-  extrapolated = true;
-  double reach = 0.0;
-  for (int d = 0; d < dim; ++d)
-    if (window.cell_in_grid(part.host))
-      reach += part.normal[d] * part.normal[d] * grid.spacing(d, part.host[d]);
-  if (reach == 0.0) reach = grid.shortest_side();
-  // Along the ray from the middle to the next grid line, and the next.
-  for (int crossings = 0; crossings < dim; ++crossings) {
-    double nearest = std::numeric_limits<double>::infinity();
-    int direction = 0;
-    for (int d = 0; d < dim; ++d) {
-      const double n = part.normal[d];
-      if (std::abs(n) < 1e-12 || cell[d] < -1 || cell[d] > grid.cells(d)) continue;
-      const double s = (grid.line(d, n > 0 ? cell[d] + 1 : cell[d]) - part.middle[d]) / n;
-      if (s < nearest) nearest = s, direction = d;
-    }
-    if (nearest > reach) return false;
-    cell[direction] += part.normal[direction] > 0 ? 1 : -1;
-    if (filled(cell)) return true;
-  }
-  return false;
-}
 
 /// Lame's constants of the stiffest body in a cell.
 template <int dim>
@@ -127,11 +91,11 @@ Vec<dim> Wall<dim>::own_displacement(const Vec<dim>& normal, double t, double dt
 /// Where the wall is at time t, in parts. Motion along own axes moves a wall that is flat; of others the
 /// geometry stays, and material moves away from it or towards it.
 template <int dim>
-void Wall<dim>::cut(const StructuredGrid<dim>& grid, double t) {
+void Wall<dim>::cut(const Space<dim>& space, double t) {
   if (pieces_.empty()) {
-    const Vec<dim> margin = Vec<dim>::Constant(2.0 * grid.shortest_side());
-    pieces_ =
-        shape_.pieces(longest_chord * grid.shortest_side(), {grid.lower() - margin, grid.upper() + margin});
+    const double h = space.shortest_side();
+    const Vec<dim> margin = Vec<dim>::Constant(2.0 * h);
+    pieces_ = shape_.pieces(longest_chord * h, {space.lower() - margin, space.upper() + margin});
   }
   bool flat = !options_.displacement.empty() || !options_.velocity.empty();
   for (const auto& piece : pieces_) flat &= (piece.normal - pieces_.front().normal).norm() < 1e-9;
@@ -145,7 +109,7 @@ void Wall<dim>::cut(const StructuredGrid<dim>& grid, double t) {
       for (auto& x : piece.vertex) x = motion_.position(x + shift, t);
       piece.normal = turn * piece.normal;
     }
-    cut_piece(grid, piece, cut_);
+    cut_piece(space, piece, cut_);
   }
   shift_ = shift;
   is_cut_ = true;
@@ -154,26 +118,23 @@ void Wall<dim>::cut(const StructuredGrid<dim>& grid, double t) {
 template <int dim>
 void Wall<dim>::begin_step(const Space<dim>& space, const ActiveCells& active,
                            const std::vector<Body<dim>>& bodies, double t, double dt) {
-  cut(space.grid(), t);
-  const auto& window = space.window();
-  const WallMemory<dim> memory(states_, space.grid().shortest_side());
+  cut(space, t);
+  const WallMemory<dim> memory(states_, space.shortest_side());
   const Mat<dim> turn = motion_.rotation(t);
+  // Splines stay positive definite with wider bands, see docs/theory/implicit-boundaries.md.
+  const double usual_delta = options_.mode == WallMode::literal ? 1e-6 : on_splines(space) ? 5e-2 : 1e-2;
   points_.clear(), parts_.clear();
   Vec<3> covered = Vec<3>::Zero();
   for (const auto& part : cut_.parts) {
-    MultiIndex<dim> cell;
-    bool extrapolated = false;
     double size = 0.0;
     for (std::size_t q = part.first; q < part.first + part.count; ++q) size += cut_.weight[q];
-    if (window.owns_cell(part.host)) covered[0] += size;
-    if (!find_cell(space, active, part, cell, extrapolated) || !window.owns_cell(cell)) continue;
-    covered[1] += size, covered[2] += extrapolated ? size : 0.0;
-    const Elasticity e =
-        elasticity_in(bodies, active.bits[static_cast<std::size_t>(window.cell_index(cell))]);
-    double h = 0.0;
-    for (int d = 0; d < dim; ++d) h += part.normal[d] * part.normal[d] * space.grid().spacing(d, cell[d]);
-    const double delta = options_.delta.value_or(options_.mode == WallMode::literal ? 1e-6 : 1e-2);
-    const double penalty = band_integrals(delta * h).slope_squared;
+    if (owns_host(space, part.host)) covered[0] += size;
+    const std::optional<WallHost<dim>> host = find_host(space, active, part);
+    if (!host || !owns_host(space, host->cell)) continue;
+    covered[1] += size, covered[2] += host->extrapolated ? size : 0.0;
+    const Elasticity e = elasticity_in(bodies, active.bits[static_cast<std::size_t>(host->number)]);
+    const double delta = options_.delta.value_or(usual_delta);
+    const double penalty = band_integrals(delta * host->extent).slope_squared;
     parts_.push_back(points_.size());
     for (std::size_t q = part.first; q < part.first + part.count; ++q) {
       const Vec<dim>& x = cut_.position[q];
@@ -184,7 +145,7 @@ void Wall<dim>::begin_step(const Space<dim>& space, const ActiveCells& active,
           is_curved_ ? shape_.signed_distance(rest).normal : turn.transpose() * part.normal;
       const Vec<dim> own = motion_.rotation(t + dt) * own_displacement(normal, t, dt);
       const WallState<dim> state = memory.at(rest);
-      points_.push_back({cell_functions(space, cell, x), x, turn * normal, motion_.increment(x, t, dt) + own,
+      points_.push_back({functions_at(space, *host, x), x, turn * normal, motion_.increment(x, t, dt) + own,
                          turn * state.traction, turn * state.gap, cut_.weight[q], e.lambda, e.mu, penalty});
     }
   }
@@ -209,7 +170,7 @@ typename Wall<dim>::Operators Wall<dim>::operators(const Point& point) const {
   const double share = options_.mode == WallMode::literal ? unit.value_slope : unit.slope;
   const Mat<dim> rise = all - (1.0 - share) * o.held;
   const Vec<dim> rise_n = rise * n;
-  for (std::size_t i = 0; i < o.traction.size(); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(point.functions.n); ++i) {
     const Vec<dim>& g = point.functions.dphi[i];
     o.traction[i] =
         point.lambda * n * (rise * g).transpose() + point.mu * (g.dot(n) * rise + g * rise_n.transpose());
@@ -220,30 +181,30 @@ typename Wall<dim>::Operators Wall<dim>::operators(const Point& point) const {
 template <int dim>
 void Wall<dim>::add_pattern(BlockMatrix& matrix) const {
   for (std::size_t k = 0; k + 1 < parts_.size(); ++k)
-    matrix.add_element(points_[parts_[k]].functions.function);
+    matrix.add_element(points_[parts_[k]].functions.functions());
 }
 
 template <int dim>
 void Wall<dim>::add_stiffness(BlockMatrix& stiffness) const {
-  constexpr int n = CellFunctions<dim>::n, rows = n * dim;
+  constexpr int most = CellFunctions<dim>::max_functions * dim;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most, most> dense;
   for (std::size_t k = 0; k + 1 < parts_.size(); ++k) {
-    Eigen::Matrix<double, rows, rows, Eigen::RowMajor> dense;
-    dense.setZero();
+    const std::span<const int> functions = points_[parts_[k]].functions.functions();
+    const auto n = functions.size();
+    dense.setZero(static_cast<int>(n) * dim, static_cast<int>(n) * dim);
     for (std::size_t q = parts_[k]; q < parts_[k + 1]; ++q) {
       const Point& point = points_[q];
       const Operators o = operators(point);
-      std::array<Mat<dim>, n> held_traction;
+      const auto& phi = point.functions.phi;
+      std::array<Mat<dim>, CellFunctions<dim>::max_functions> held_traction;
       for (std::size_t i = 0; i < n; ++i) held_traction[i] = point.weight * o.held * o.traction[i];
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-          const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-          const auto& phi = point.functions.phi;
-          dense.template block<dim, dim>(i * dim, j * dim) += held_traction[a].transpose() * phi[b] +
-                                                              phi[a] * held_traction[b] +
-                                                              (point.weight * phi[a] * phi[b]) * o.penalty;
-        }
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          dense.template block<dim, dim>(static_cast<int>(i) * dim, static_cast<int>(j) * dim) +=
+              held_traction[i].transpose() * phi[j] + phi[i] * held_traction[j] +
+              (point.weight * phi[i] * phi[j]) * o.penalty;
     }
-    stiffness.add(points_[parts_[k]].functions.function, dense.data());
+    stiffness.add(functions, dense.data());
   }
 }
 
@@ -253,7 +214,7 @@ void Wall<dim>::add_force(std::span<double> force) const {
     const Operators o = operators(point);
     const Vec<dim> gap = point.weight * (point.gap - o.held * point.target);
     const Vec<dim> traction = point.weight * (point.traction - o.penalty * point.target);
-    for (std::size_t i = 0; i < point.functions.phi.size(); ++i)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(point.functions.n); ++i)
       Eigen::Map<Vec<dim>>(force.data() + point.functions.function[i] * dim) +=
           o.traction[i].transpose() * gap + point.functions.phi[i] * traction;
   }
@@ -269,7 +230,7 @@ void Wall<dim>::finish(std::span<const double> u, double t, double dt) {
   for (const Point& point : points_) {
     const Operators o = operators(point);
     Vec<dim> moved = Vec<dim>::Zero(), traction = Vec<dim>::Zero();
-    for (std::size_t i = 0; i < point.functions.phi.size(); ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(point.functions.n); ++i) {
       const Eigen::Map<const Vec<dim>> ui(u.data() + point.functions.function[i] * dim);
       moved += point.functions.phi[i] * ui, traction += o.traction[i] * ui;
     }

@@ -49,9 +49,9 @@ class Wall {
   const WallShape<dim>& shape() const { return shape_; }
   const RigidMotion<dim>& motion() const { return motion_; }
 
-  /// Implicit steps, in this order. First the wall is cut at the grid lines where it is at time t, and every
-  /// part finds the active cell whose functions it uses: its own, or if that is empty the nearest along the
-  /// normal, at most one cell away. Collective.
+  /// Implicit steps, in this order. First the wall is cut at the grid lines (edges of triangles) where it is
+  /// at time t, and every part finds the active cell whose functions it uses: its own, or if that is empty
+  /// the nearest along the normal, at most one cell away. Collective.
   void begin_step(const Space<dim>& space, const ActiveCells& active, const std::vector<Body<dim>>& bodies,
                   double t, double dt);
   /// Lets the pattern of a matrix couple the functions at the wall.
@@ -84,11 +84,11 @@ class Wall {
   /// Operators at a Gauss point: held directions P, penalty Q, and traction s = S_j u_j of function j.
   struct Operators {
     Mat<dim> held, penalty;
-    std::array<Mat<dim>, CellFunctions<dim>::n> traction;
+    std::array<Mat<dim>, CellFunctions<dim>::max_functions> traction;
   };
   Operators operators(const Point& point) const;
   Vec<dim> own_displacement(const Vec<dim>& normal, double t, double dt) const;
-  void cut(const StructuredGrid<dim>& grid, double t);
+  void cut(const Space<dim>& space, double t);
   WallOptions options_;
   WallShape<dim> shape_;
   RigidMotion<dim> motion_;

@@ -49,6 +49,8 @@ WallContact<dim>::WallContact(const std::vector<Wall<dim>>& walls, const Space<d
   if (Session::size() > 1)
     input_error("boundary '{}': walls in explicit stages run on one rank only, not on {}",
                 walls_.front().name(), Session::size());
+  if (!space.structured())
+    input_error("boundary '{}': explicit stages have walls on structured grids only", walls_.front().name());
   const StructuredGrid<dim>& grid = space.grid();
   // Walls without bounds come as far as the grid reaches, and as far again if they move.
   const Vec<dim> reach = grid.upper() - grid.lower();

@@ -21,14 +21,7 @@ MultiIndex<dim> host_cell(const StructuredGrid<dim>& grid, const Vec<dim>& middl
 
 void add_segment(const StructuredGrid<2>& grid, const Vec<2>& a, const Vec<2>& b, const Vec<2>& normal,
                  WallCut<2>& cut) {
-  constexpr double r[3] = {-0.77459666924148337704, 0.0, 0.77459666924148337704};
-  constexpr double w[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-  const Vec<2> middle = 0.5 * (a + b), half = 0.5 * (b - a);
-  cut.parts.push_back({middle, normal, host_cell<2>(grid, middle, normal), cut.position.size(), 3});
-  for (int q = 0; q < 3; ++q) {
-    cut.position.push_back(middle + r[q] * half);
-    cut.weight.push_back(2.0 * half.norm() * w[q]);
-  }
+  add_part(a, b, normal, host_cell<2>(grid, 0.5 * (a + b), normal), 3, cut);
 }
 
 void cut_segment(const StructuredGrid<2>& grid, const WallPiece<2>& piece, WallCut<2>& cut) {
@@ -119,6 +112,22 @@ void cut_corners(const StructuredGrid<3>& grid, const Corners& corners, int d, c
 }
 
 }  // namespace
+
+void add_part(const Vec<2>& a, const Vec<2>& b, const Vec<2>& normal, const MultiIndex<2>& host, int points,
+              WallCut<2>& cut) {
+  constexpr double r[2][4] = {
+      {-0.77459666924148337704, 0.0, 0.77459666924148337704, 0.0},
+      {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480, 0.86113631159405257522}};
+  constexpr double w[2][4] = {
+      {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0, 0.0},
+      {0.17392742256872692869, 0.32607257743127307131, 0.32607257743127307131, 0.17392742256872692869}};
+  const Vec<2> middle = 0.5 * (a + b), half = 0.5 * (b - a);
+  cut.parts.push_back({middle, normal, host, cut.position.size(), static_cast<std::size_t>(points)});
+  for (int q = 0; q < points; ++q) {
+    cut.position.push_back(middle + r[points - 3][q] * half);
+    cut.weight.push_back(2.0 * half.norm() * w[points - 3][q]);
+  }
+}
 
 template <>
 void cut_piece<2>(const StructuredGrid<2>& grid, const WallPiece<2>& piece, WallCut<2>& cut) {

@@ -33,7 +33,7 @@ struct WallOptions {
   std::optional<RigidMotionOptions> motion;
   WallMode mode = WallMode::consistent;
   std::optional<double> delta;
-  double ghost = 3e-2;  // at least 9/4 of delta: see the theory page
+  std::optional<double> ghost;
   bool unilateral = false;
   double friction = 0.0;
 
@@ -57,11 +57,15 @@ struct WallOptions {
         key("mode", &O::mode, "",
             "implicit steps: consistent (Nitsche's method), or the literal form of the paper"),
         key("delta", &O::delta, "-",
-            "implicit steps: width of the band over the cell's side (default 1e-2, literal 1e-6)")
+            "implicit steps: width of the band over the cell's side, of a triangle its shortest height "
+            "(default "
+            "1e-2, for splines 5e-2, literal 1e-6)")
             .positive()
             .at_most(1),
         key("ghost", &O::ghost, "-",
-            "implicit steps, consistent, no [stabilisation]: Ghost stiffness in units of lambda + 2 mu")
+            "implicit steps, consistent, no [stabilisation]: Ghost stiffness in units of lambda + 2 mu "
+            "(default "
+            "3e-2, on triangles 5e-2, for splines 0.1)")
             .at_least(0),
         key("unilateral", &O::unilateral, "", "explicit steps: the wall only pushes"),
         key("friction", &O::friction, "-", "explicit steps: Coulomb's coefficient").at_least(0)};

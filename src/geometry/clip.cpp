@@ -1,8 +1,10 @@
 #include "geometry/clip.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.h"
 
@@ -20,7 +22,7 @@ template <int dim>
 struct Integrals {
   double volume = 0.0;
   Vector<dim> first = Vector<dim>::Zero();
-  Vector<dim> second = Vector<dim>::Zero();  // the diagonal
+  Eigen::Matrix<double, dim, dim> second = Eigen::Matrix<double, dim, dim>::Zero();
 
   /// A simplex of the origin and dim corners.
   void add(const std::array<Vector<dim>, dim>& v) {
@@ -30,16 +32,18 @@ struct Integrals {
     const Vector<dim> sum = edges.rowwise().sum();
     volume += size;
     first += size / (dim + 1) * sum;
-    second += size / ((dim + 1) * (dim + 2)) *
-              (edges.array().square().rowwise().sum() + sum.array().square()).matrix();
+    second += size / ((dim + 1) * (dim + 2)) * (edges * edges.transpose() + sum * sum.transpose());
+  }
+  Eigen::Matrix<double, dim, dim> covariance() const {
+    const Vector<dim> mean = first / volume;
+    return second / volume - mean * mean.transpose();
   }
   ClippedBox<dim> about(const Vector<dim>& origin) const {
     ClippedBox<dim> part;
     if (!(volume > 0.0)) return part;
-    const Vector<dim> mean = first / volume;
     part.volume = volume;
-    part.centroid = origin + mean;
-    part.variance = (second / volume - mean.cwiseProduct(mean)).cwiseMax(0.0);
+    part.centroid = origin + first / volume;
+    part.variance = covariance().diagonal().cwiseMax(0.0);
     return part;
   }
 };
@@ -141,7 +145,61 @@ ClippedBox<2> clip(const std::vector<Corners<2>>& rings, const std::vector<HalfS
   return sum.about(origin);
 }
 
+ClippedTriangle triangle_of(const std::vector<Corners<2>>& rings, const Vector<2>& origin) {
+  ClippedTriangle part;
+  Integrals<2> sum;
+  for (const auto& ring : rings)
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      sum.add({ring[k] - origin, ring[(k + 1) % ring.size()] - origin});
+      part.corners.push_back(ring[k]);
+    }
+  if (!(sum.volume > 0.0)) return {};
+  part.area = sum.volume;
+  part.centroid = origin + sum.first / sum.volume;
+  part.covariance = sum.covariance();
+  return part;
+}
+
 }  // namespace
+
+ClippedTriangle clip_triangle(const Region<2>& shape, const std::vector<HalfSpace<2>>& cuts,
+                              const std::array<Vector<2>, 3>& corners) {
+  std::vector<HalfSpace<2>> all;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector<2> side = corners[(k + 1) % 3] - corners[k];
+    all.push_back({corners[k], {-side[1], side[0]}});
+  }
+  all.insert(all.end(), cuts.begin(), cuts.end());
+  std::vector<Corners<2>> rings =
+      std::visit([](const auto& s) -> std::vector<Corners<2>> { return rings_of(s); }, shape);
+  for (auto& ring : rings)
+    for (const auto& half : all)
+      if (!ring.empty()) ring = cut_corners<2>(ring, half);
+  return triangle_of(rings, (corners[0] + corners[1] + corners[2]) / 3.0);
+}
+
+ClippedTriangle whole_triangle(const std::array<Vector<2>, 3>& corners) {
+  return triangle_of({{corners.begin(), corners.end()}}, (corners[0] + corners[1] + corners[2]) / 3.0);
+}
+
+std::vector<Vector<2>> gauss_points(const ClippedTriangle& part) {
+  const Eigen::LLT<Eigen::Matrix2d> root(part.covariance);
+  const Eigen::Matrix2d l = root.matrixL();
+  if (root.info() != Eigen::Success || !(l(1, 1) > 1e-6 * l(0, 0)) || !(l(0, 0) > 1e-6 * l(1, 1))) return {};
+  // Where the part is a disc in the mean: towards the farthest corner, in triangles away from the sides.
+  Vector<2> far(1.0, 0.0);
+  double most = 0.0;
+  for (const auto& x : part.corners)
+    if (const Vector<2> d = root.matrixL().solve(x - part.centroid); d.norm() > most)
+      most = d.norm(), far = d;
+  const double turn = std::atan2(far[1], far[0]);
+  std::vector<Vector<2>> points;
+  for (int k = 0; k < 3; ++k) {
+    const double a = turn + 2.0 * std::numbers::pi / 3.0 * k;
+    points.push_back(part.centroid + std::numbers::sqrt2 * (l * Vector<2>(std::cos(a), std::sin(a))));
+  }
+  return points;
+}
 
 template <>
 ClippedBox<2> clip_box<2>(const Region<2>& shape, const std::vector<HalfSpace<2>>& cuts,

@@ -93,6 +93,16 @@ class Triangulation {
     return locate_from(x, hint);
   }
 
+  /// Calls f(t) for every triangle whose bounding box may meet the box from `low` to `high`; for some more
+  /// than once.
+  template <class F>
+  void for_each_near(const Vec<2>& low, const Vec<2>& high, F&& f) const {
+    const auto from = bin(low), to = bin(high);
+    for (int j = from[1]; j <= to[1]; ++j)
+      for (int i = from[0]; i <= to[0]; ++i)
+        for (const int t : in_bin({i, j})) f(t);
+  }
+
   /// Names edges by their vertex pairs, single vertices, or triangles; adds to a name that exists. Errors
   /// (InputError): a pair that is no edge, numbers out of range.
   void add_part(const std::string& name, std::span<const std::array<int, 2>> edges,

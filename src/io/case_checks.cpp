@@ -191,6 +191,17 @@ class Checks {
                               text<dim>(upper())));
   }
 
+  /// Points that are cut on triangles.
+  void on_triangles(const BodyOptions& body, const std::string& path) {
+    const Sampling& s = body.sampling;
+    if (s.method != SamplingMethod::cells && s.method != SamplingMethod::gauss)
+      context_.fail_at(path, "points on triangles are cut with method \"cells\" or \"gauss\" only");
+    if (s.volumes == PointVolumes::voronoi)
+      context_.fail_at(path + ".volumes", "cut points have what the cut leaves: give volumes = \"share\"");
+    if (std::holds_alternative<MeshShape>(body.shape))
+      context_.fail_at(path, "the triangles of a mesh are not cut; give a polygon");
+  }
+
   void sampling(const BodyOptions& body, std::size_t i) {
     const std::string path = place("body", i, "sampling");
     for (const char* sampled : {"method", "points_per_cell", "divisions", "clip", "cuts"})
@@ -201,13 +212,10 @@ class Checks {
       context_.fail_at(path + ".method", "random points need a grid of triangles");
     if (!triangles && body.sampling.volumes == PointVolumes::voronoi)
       context_.fail_at(path + ".volumes", "Voronoi volumes need a grid of triangles");
-    if (triangles && body.sampling.method == SamplingMethod::gauss)
-      context_.fail_at(path + ".method", "Gauss positions need a structured grid");
     const bool cut = body.sampling.clip || !body.sampling.cuts.empty();
     if (cut && std::holds_alternative<Ball>(body.shape))
       context_.fail_at(path, "points cannot be cut at a ball; give a polygon (2D), or clip = false");
-    if (cut && triangles)
-      context_.fail_at(path, "points are cut on structured grids only; give volumes = \"voronoi\"");
+    if (cut && triangles) on_triangles(body, path);
     for (std::size_t k = 0; k < body.sampling.cuts.size(); ++k)
       if (body.sampling.cuts[k].size() != 2 * dim)
         context_.fail_at(fmt::format("{}.cuts[{}]", path, k),
@@ -299,7 +307,6 @@ class Checks {
 
   void boundary(const WallOptions& w, std::size_t i) {
     const auto at = [&](std::string_view key) { return place("boundary", i, key); };
-    if (!grid_) context_.fail_at(at("type"), "walls need a structured grid; on triangles hold a named part");
     if (!w.displacement.empty() && !w.velocity.empty())
       context_.fail_at(at("velocity"), "give either displacement or velocity");
     located(context_, place("boundary", i, "shape"), [&] {
@@ -424,7 +431,11 @@ class Checks {
     if (e.updated_gradients && e.stress_update != StressUpdate::usf)
       context_.fail_at(at("updated_gradients"), "only for stress_update = \"usf\"");
     const auto is_wall = [](const AnyBoundaryOptions& b) { return std::holds_alternative<WallOptions>(b); };
-    if (e.damping > 0 && std::any_of(case_.boundaries.begin(), case_.boundaries.end(), is_wall))
+    const bool walls = std::any_of(case_.boundaries.begin(), case_.boundaries.end(), is_wall);
+    if (walls && !grid_)
+      context_.fail_at(place("stage", i, "type"),
+                       "explicit stages have walls on structured grids only; on triangles hold a named part");
+    if (e.damping > 0 && walls)
       context_.fail_at(at("damping"),
                        "not beside walls: it would also damp the forces that they carry; use pic_fraction");
     const auto no_waves = [](const BodyOptions& b) { return !(p_wave_modulus(b.material) > 0.0); };

@@ -37,7 +37,8 @@ struct Sampling {
   static constexpr auto keys() {
     return std::tuple{
         key("method", &Sampling::method, "",
-            "cells: evenly in every grid cell; gauss: at Gauss positions of every cell; "
+            "cells: evenly in every grid cell; gauss: at Gauss positions of every cell, or on triangles "
+            "three in each of n^2 parts of each of the six triangles of the Powell-Sabin split; "
             "divisions: evenly in the shape's bounding box; random: in every triangle"),
         key("seed", &Sampling::seed, "-", "of method random").at_least(0),
         key("volumes", &Sampling::volumes, "",

@@ -66,20 +66,6 @@ void fill_cell(const Vec<dim>& lower, const Vec<dim>& upper, const Rule& rule, c
               });
 }
 
-template <int dim>
-std::vector<HalfSpace<dim>> cuts_of(const BodyOptions& options) {
-  std::vector<HalfSpace<dim>> cuts;
-  for (const auto& row : options.sampling.cuts) {
-    if (row.size() != 2 * dim)
-      input_error("body '{}': cuts needs {} numbers a plane (point, normal), found {}", options.label,
-                  2 * dim, row.size());
-    cuts.push_back({Eigen::Map<const Vec<dim>>(row.data()), Eigen::Map<const Vec<dim>>(row.data() + dim)});
-    if (!(cuts.back().normal.norm() > 0.0))
-      input_error("body '{}': cuts: a normal has no length", options.label);
-  }
-  return cuts;
-}
-
 /// Calls f(seed) for the sub-domains of a cell cut at the shape and at planes (Cortis, Coombs and Augarde
 /// 2018, section 4). A cut one becomes a domain about its centroid with the same spread, no longer than stays
 /// in the sub-domain.
@@ -201,6 +187,23 @@ Seed<dim> seed_of(const PointRow<dim>& row) {
 }
 
 }  // namespace
+
+template <int dim>
+std::vector<HalfSpace<dim>> cuts_of(const BodyOptions& options) {
+  std::vector<HalfSpace<dim>> cuts;
+  for (const auto& row : options.sampling.cuts) {
+    if (row.size() != 2 * dim)
+      input_error("body '{}': cuts needs {} numbers a plane (point, normal), found {}", options.label,
+                  2 * dim, row.size());
+    cuts.push_back({Eigen::Map<const Vec<dim>>(row.data()), Eigen::Map<const Vec<dim>>(row.data() + dim)});
+    if (!(cuts.back().normal.norm() > 0.0))
+      input_error("body '{}': cuts: a normal has no length", options.label);
+  }
+  return cuts;
+}
+
+template std::vector<HalfSpace<2>> cuts_of<2>(const BodyOptions&);
+template std::vector<HalfSpace<3>> cuts_of<3>(const BodyOptions&);
 
 template <int dim>
 Sampler<dim>::Sampler(const BodyOptions& options, const StructuredGrid<dim>& grid,

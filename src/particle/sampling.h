@@ -3,11 +3,16 @@
 #include <filesystem>
 #include <vector>
 
+#include "geometry/clip.h"
 #include "grid/structured.h"
 #include "particle/body.h"
 #include "particle/body_options.h"
 
 namespace wisp {
+
+/// The planes of `sampling.cuts`. Errors (InputError): a wrong number of values, a normal without length.
+template <int dim>
+std::vector<HalfSpace<dim>> cuts_of(const BodyOptions& options);
 
 /// The points of a body in the order of their ids, which do not depend on the number of ranks; no rank ever
 /// holds more of them than its own.

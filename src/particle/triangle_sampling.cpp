@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "core/error.h"
+#include "geometry/clip.h"
 #include "geometry/delaunay.h"
 #include "geometry/region.h"
 #include "grid/gmsh.h"
+#include "grid/powell_sabin_split.h"
 #include "particle/initial_state.h"
+#include "particle/sampling.h"
 
 namespace wisp {
 
@@ -79,8 +83,11 @@ Outline polygon_of(const Region<2>& shape) {
 
 Layout fill_mesh(const BodyOptions& options, const MeshShape& shape, const std::filesystem::path& folder) {
   const Triangulation mesh = read_gmsh(folder / shape.file, shape.scale);
-  if (options.sampling.method == SamplingMethod::divisions)
-    input_error("body '{}': a mesh is sampled triangle by triangle: method cells or random", options.label);
+  if (options.sampling.method == SamplingMethod::divisions ||
+      options.sampling.method == SamplingMethod::gauss || options.sampling.clip ||
+      !options.sampling.cuts.empty())
+    input_error("body '{}': a mesh is sampled triangle by triangle: method cells or random, without clip",
+                options.label);
   if (options.sampling.volumes == PointVolumes::voronoi)
     input_error("body '{}': the points of a mesh have equal shares of its triangles; volumes must be share",
                 options.label);
@@ -95,9 +102,75 @@ Layout fill_mesh(const BodyOptions& options, const MeshShape& shape, const std::
   return out;
 }
 
+/// Calls f(corners) for the n² equal triangles that a triangle divides into.
+template <class F>
+void for_each_part(const std::array<Vec<2>, 3>& corners, int n, F&& f) {
+  const auto at = [&](int i, int j) -> Vec<2> {
+    return corners[0] + static_cast<double>(i) / n * (corners[1] - corners[0]) +
+           static_cast<double>(j) / n * (corners[2] - corners[0]);
+  };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n - j; ++i) {
+      f(std::array<Vec<2>, 3>{at(i, j), at(i + 1, j), at(i, j + 1)});
+      if (i + j < n - 1) f(std::array<Vec<2>, 3>{at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+}
+
+bool inside(const std::array<Vec<2>, 3>& corners, const Vec<2>& x) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec<2> side = corners[(k + 1) % 3] - corners[k], d = x - corners[k];
+    if (side[0] * d[1] - side[1] * d[0] <= 0.0) return false;
+  }
+  return true;
+}
+
+/// Equal parts of the triangles, or of the six that a Powell-Sabin split makes of each, on which the
+/// functions are polynomials: three Gauss points a part. `clip`: cut at the shape; what has no thickness, or
+/// is so hollow that a Gauss point lies outside of the part, gets one point in its centroid.
+void fill_parts(const BodyOptions& options, const Triangulation& grid, const Region<2>& shape,
+                const std::vector<HalfSpace<2>>& cuts, Layout& out) {
+  const Sampling& sampling = options.sampling;
+  const bool gauss = sampling.method == SamplingMethod::gauss, clip = sampling.clip || !cuts.empty();
+  const auto box = bounds(shape);
+  const auto fill = [&](const std::array<Vec<2>, 3>& corners) {
+    const ClippedTriangle whole = whole_triangle(corners);
+    const ClippedTriangle part = clip ? clip_triangle(shape, cuts, corners) : whole;
+    if (!(part.area > 1e-14 * whole.area)) return;
+    std::vector<Vec<2>> points = gauss ? gauss_points(part) : std::vector<Vec<2>>{};
+    if (!std::all_of(points.begin(), points.end(), [&](const Vec<2>& x) { return inside(corners, x); }))
+      points.clear();
+    if (points.empty()) points = {part.centroid};
+    for (const auto& x : points)
+      if (clip || contains(shape, x))
+        out.position.push_back(x), out.volume.push_back(part.area / static_cast<double>(points.size()));
+  };
+  const std::optional<PowellSabinSplit> split =
+      gauss ? std::make_optional<PowellSabinSplit>(grid) : std::nullopt;
+  for (int t = 0; t < grid.n_triangles(); ++t) {
+    const std::array<Vec<2>, 3> v{grid.corner(t, 0), grid.corner(t, 1), grid.corner(t, 2)};
+    const Vec<2> low = v[0].cwiseMin(v[1]).cwiseMin(v[2]), high = v[0].cwiseMax(v[1]).cwiseMax(v[2]);
+    if ((low.array() > box.upper.array()).any() || (high.array() < box.lower.array()).any()) continue;
+    if (!split) {
+      for_each_part(v, sampling.points_per_cell, fill);
+      continue;
+    }
+    const Vec<2> z = split->centre(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec<2> r = split->edge_point(grid.edge(t, static_cast<int>(k)));
+      for_each_part({v[k], r, z}, sampling.points_per_cell, fill);
+      for_each_part({r, v[(k + 1) % 3], z}, sampling.points_per_cell, fill);
+    }
+  }
+}
+
 Layout lay_out(const BodyOptions& options, const Triangulation& grid, const std::filesystem::path& folder) {
-  if (options.sampling.clip || !options.sampling.cuts.empty())
-    input_error("body '{}': clip and cuts need a structured grid", options.label);
+  const SamplingMethod method = options.sampling.method;
+  const bool clip = options.sampling.clip || !options.sampling.cuts.empty();
+  if (clip && method != SamplingMethod::cells && method != SamplingMethod::gauss)
+    input_error("body '{}': clip and cuts on triangles need method cells or gauss", options.label);
+  if (clip && options.sampling.volumes == PointVolumes::voronoi)
+    input_error("body '{}': cut points have the volumes that the cut leaves; volumes must be share",
+                options.label);
   Layout out;
   if (const auto* file = std::get_if<PointFile>(&options.shape)) {
     PointTable<2> table = read_points<2>(*file, folder);
@@ -105,14 +178,11 @@ Layout lay_out(const BodyOptions& options, const Triangulation& grid, const std:
     out.velocity = std::move(table.velocities);
     return out;
   }
-  if (options.sampling.method == SamplingMethod::gauss)
-    input_error(
-        "body '{}': sampling at Gauss positions needs a structured grid; methods here are cells, random "
-        "and divisions",
-        options.label);
   if (const auto* mesh = std::get_if<MeshShape>(&options.shape)) return fill_mesh(options, *mesh, folder);
   const Region<2> shape = region<2>(options.shape, folder);
-  if (options.sampling.method == SamplingMethod::divisions) {
+  if (clip || method == SamplingMethod::gauss) {
+    fill_parts(options, grid, shape, cuts_of<2>(options), out);
+  } else if (method == SamplingMethod::divisions) {
     fill_divisions(options, shape, out);
   } else {
     Uniform random(options.sampling.seed);

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "geometry/ball.h"
+#include "grid/powell_sabin_split.h"
 #include "grid/triangulate.h"
 
 namespace wisp {
@@ -61,6 +62,67 @@ TEST(TriangleSampling, EveryMethodFillsTheBody) {
     }
 }
 
+/// Volume, first and second moments of a body's points.
+std::array<double, 6> moments(const Body<2>& body) {
+  std::array<double, 6> m{};
+  for (std::size_t p = 0; p < body.points.volume.size(); ++p) {
+    const double v = body.points.volume[p], x = body.points.position[p][0], y = body.points.position[p][1];
+    const double terms[6] = {1.0, x, y, x * x, x * y, y * y};
+    for (std::size_t k = 0; k < 6; ++k) m[k] += v * terms[k];
+  }
+  return m;
+}
+
+TEST(TriangleSampling, GaussPointsIntegrateQuadraticFunctionsOverACutShape) {
+  const auto grid = mesh();
+  // A square of side 1.2 turned about (1.5, 1): moments about its centre are those of any orientation.
+  const double a = 1.2, c = std::cos(0.4), s = std::sin(0.4);
+  Polygon square;
+  for (const auto& [x, y] : {std::pair{-0.6, -0.6}, {0.6, -0.6}, {0.6, 0.6}, {-0.6, 0.6}})
+    square.vertices.push_back({1.5 + c * x - s * y, 1.0 + s * x + c * y});
+  auto o = box_body();
+  o.shape = square, o.sampling.clip = true;
+  const double area = a * a, own = area * a * a / 12.0;
+  const double exact[6] = {area, 1.5 * area, area, own + 2.25 * area, 1.5 * area, own + area};
+  for (const auto method : {SamplingMethod::cells, SamplingMethod::gauss})
+    for (const int n : {1, 2}) {
+      o.sampling.method = method, o.sampling.points_per_cell = n;
+      const auto found = moments(sample(o, grid, 0, {}));
+      for (std::size_t k = 0; k < (method == SamplingMethod::gauss ? 6U : 3U); ++k)
+        EXPECT_NEAR(found[k], exact[k], 1e-13) << k;
+    }
+}
+
+TEST(TriangleSampling, CutsLeaveTheExactArea) {
+  const auto grid = mesh();
+  auto o = box_body();
+  o.sampling.method = SamplingMethod::gauss, o.sampling.points_per_cell = 1;
+  o.sampling.cuts = {{0.0, 0.5, 0.0, 1.0}, {1.0, 0.0, 1.0, 0.5}};  // y >= 0.5, x + y/2 >= 1
+  // x from 1 - y/2 to 3, y from 0.5 to 2
+  EXPECT_NEAR(total(sample(o, grid, 0, {}).points.volume), 2.0 * 1.5 + 0.25 * (4.0 - 0.25), 1e-13);
+  o.sampling.cuts = {{0.0, 0.5, 1.0}};
+  EXPECT_THROW(sample(o, grid, 0, {}), InputError);
+}
+
+TEST(TriangleSampling, GaussPointsOfWholeTrianglesAreInTheirSplit) {
+  const auto grid = mesh();
+  auto o = box_body();
+  o.sampling.method = SamplingMethod::gauss, o.sampling.points_per_cell = 1;
+  const auto body = sample(o, grid, 0, {});
+  ASSERT_EQ(body.points.size(), 18 * grid.n_triangles());
+  const auto found = moments(body);
+  const double exact[6] = {6.0, 9.0, 6.0, 18.0, 9.0, 8.0};
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(found[k], exact[k], 1e-12);
+  const PowellSabinSplit split(grid);
+  for (std::size_t p = 0; p < body.points.position.size(); ++p) {
+    const int t = grid.locate(body.points.position[p]);
+    EXPECT_EQ(t, static_cast<int>(p) / 18);
+    const SplitPoint at = split.locate(t, grid.barycentric(t, body.points.position[p]));
+    EXPECT_EQ(2 * at.edge + at.side, static_cast<int>(p) % 18 / 3);
+    for (const double share : at.share) EXPECT_NEAR(share, share < 0.4 ? 1.0 / 6.0 : 2.0 / 3.0, 1e-12);
+  }
+}
+
 TEST(TriangleSampling, RandomPointsDependOnTheSeedAlone) {
   const auto grid = mesh();
   auto o = box_body();
@@ -110,7 +172,9 @@ TEST(TriangleSampling, ABodyCanBeASurfaceOfAGmshFile) {
 TEST(TriangleSampling, WhatDoesNotFitIsAnInputError) {
   const auto grid = mesh();
   auto o = box_body();
-  o.sampling.method = SamplingMethod::gauss;
+  o.sampling.method = SamplingMethod::random, o.sampling.clip = true;
+  EXPECT_THROW(sample(o, grid, 0, {}), InputError);
+  o.sampling.method = SamplingMethod::cells, o.sampling.volumes = PointVolumes::voronoi;
   EXPECT_THROW(sample(o, grid, 0, {}), InputError);
   o = box_body();
   o.shape = Box{{2.5, 1.5}, {4.0, 3.0}};

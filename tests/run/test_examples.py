@@ -63,6 +63,23 @@ def check_bar(results):
     expect(abs(tip[-1]) < 0.02 * greatest, f"after a period it is at {tip[-1]} m")
 
 
+def check_cylinder(results):
+    history = results.history
+    # Lame: u = A r + B/r with B = A b^2 (lambda + mu)/mu = 2.5 A b^2, a = 0.04 m, b = 0.1 m, u(a) = 1e-4 m
+    push, a, b, mu = 1e-4, 0.04, 0.1, 1e9 / 2.6
+    slope = push / (a + 2.5 * b * b / a)
+    place = np.array([history["outer position x [m]"][0], history["outer position y [m]"][0]])
+    radius = np.hypot(*place)
+    exact = (slope * radius + 2.5 * slope * b * b / radius) * place / radius
+    for k, axis in enumerate("xy"):
+        found = history[f"outer displacement {axis} [m]"][-1]
+        expect(abs(found - exact[k]) < 0.01 * exact[k], f"the outer face moves by {found} m, exactly by {exact[k]} m")
+    force = 2.0 * mu * slope * (2.5 * b * b / a**2 - 2.5) * a
+    for axis in "xy":
+        found = history[f"reaction inner {axis} [N/m]"][-1]
+        expect(abs(found - force) < 0.02 * force, f"the inner wall pushes with {found} N/m, exactly {force} N/m")
+
+
 def main(program, case):
     name = os.path.basename(os.path.dirname(case))
     with tempfile.TemporaryDirectory() as folder:
@@ -82,6 +99,8 @@ def main(program, case):
             check_arch(results)
         if name == "08-vibrating-bar":
             check_bar(results)
+        if name == "19-walls-on-triangles":
+            check_cylinder(results)
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ struct SquareCase {
   std::optional<double> delta{};  ///< in units of h
   bool gimp = false;
   bool finite = false;  ///< Hencky's law instead of small strains
-  double ghost = 3e-2;
+  std::optional<double> ghost{};
 };
 
 /// Turned by the angle; exact at multiples of 90 degrees.
