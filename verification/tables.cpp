@@ -10,7 +10,7 @@ namespace wisp {
 std::vector<VerificationTable> verification_tables() {
   std::vector<VerificationTable> all;
   for (auto* paper : {ghost_tables, implicit_boundary_tables, powell_sabin_tables, bar_tables,
-                      column_thesis_tables, near_empty_tables})
+                      column_thesis_tables, near_empty_tables, gamma_tables})
     for (auto& table : paper()) all.push_back(std::move(table));
   return all;
 }

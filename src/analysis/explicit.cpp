@@ -144,7 +144,21 @@ void Explicit<dim>::add_work(double dt) {
 template <int dim>
 void Explicit<dim>::points(const PointUpdate& update) {
   points_changed_ = true;
-  for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
+  if (!update.strain || options_.integration != Integration::reconstructed) {
+    for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
+    return;
+  }
+  // Points are where their forces were gathered: the same cells are filled.
+  const ActiveCells cells = active_cells(*model_.space, model_.bodies);
+  const bool own = !update.strain_velocity.empty();
+  std::vector<double> gradients;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    smooth_gradients<dim>(*model_.space, model_.bodies, b, cells, own ? update.strain_velocity : update.motion,
+                          own ? dim : motion_stride<dim>, gradients);
+    PointUpdate smooth = update;
+    smooth.gradients = gradients;
+    grid_to_points<dim>(*model_.space, model_.bodies[b], smooth);
+  }
 }
 
 /// The second map: velocity of the points just found, by the functions and the mass of this step (de Koster

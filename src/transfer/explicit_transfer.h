@@ -46,6 +46,9 @@ struct PointUpdate {
   std::span<const double> motion;  ///< n_functions x motion_stride, for velocity and move
   std::span<const double>
       strain_velocity;  ///< n_functions x dim, for strain; empty: the velocity in `motion`
+  /// Of a body, n_points x dim x dim: velocity gradients for strain in place of those of the functions, where
+  /// they are not NaN; empty: none.
+  std::span<const double> gradients;
   double flip = 1.0;    ///< share of FLIP: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p)
   bool apic = false;    ///< PIC velocity and affine field
 };

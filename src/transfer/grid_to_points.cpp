@@ -1,6 +1,8 @@
 #include "tensor/spectral.h"
 #include "transfer/explicit_transfer.h"
 
+#include <cmath>
+
 namespace wisp {
 
 namespace {
@@ -38,6 +40,7 @@ __attribute__((flatten)) void update_points(const Basis& basis, const Space<dim>
   const Law law = group.law;  // a copy: the compiler then knows that no point changes it
   const double* const motion = update.motion.data();
   const double* const strain_velocity = update.strain_velocity.data();
+  const double* const given = update.gradients.empty() ? nullptr : update.gradients.data();
   const double dt = update.dt, flip = update.flip, pic = 1.0 - update.flip;
   const bool apic = update.apic, domains = update.domains;
   const int n = points.size();
@@ -80,6 +83,9 @@ __attribute__((flatten)) void update_points(const Basis& basis, const Space<dim>
       });
     }
     if constexpr (with_strain) {
+      if (given != nullptr && !std::isnan(given[p * dim * dim]))
+        for (int d = 0; d < dim; ++d)
+          for (int e = 0; e < dim; ++e) gradient[d][e] = given[(p * dim + d) * dim + e];
       Kinematics<dim> kinematics;
       kinematics.dt = dt;
       Mat<dim>& F = deformation_gradient[p];

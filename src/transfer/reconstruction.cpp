@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <limits>
 
 #include "transfer/explicit_transfer.h"
 
@@ -138,8 +139,8 @@ bool fit_stress(const Particles<dim>& points, const Group& group, std::span<cons
     const auto p = static_cast<std::size_t>(q);
     const auto [sigma, volume] = stress_and_volume<dim, Law>(points, p, group.old[p]);
     const auto t = fit.taylor(points.position[p]);
-    normal += t * t.transpose();
-    for (int a = 0; a < terms; ++a) right[static_cast<std::size_t>(a)] += t[a] * sigma;
+    normal += volume * t * t.transpose();
+    for (int a = 0; a < terms; ++a) right[static_cast<std::size_t>(a)] += volume * t[a] * sigma;
     filled += volume;
   }
   if (filled < 0.75 * whole) return false;
@@ -196,42 +197,89 @@ void for_each_cell(const Space<dim>& space, const Basis& basis, const std::vecto
   }
 }
 
+/// Calls f(basis, group, points of the cell, its Gauss points, fit) for the filled cells of a body.
+template <int dim, class F>
+void for_each_filled(const Space<dim>& space, const Body<dim>& body, std::size_t number, const Around& around,
+                     F&& f) {
+  const int bit = 1 << number;
+  std::vector<char> filled(around.every.size());
+  for (std::size_t c = 0; c < filled.size(); ++c) filled[c] = around.every[c] == bit && around.any[c] == bit;
+  const PointsOfCells of_cells(body.points.cell, space.n_cells());
+  std::visit(
+      [&](const auto& basis, const auto& group) {
+        if constexpr (!std::decay_t<decltype(basis)>::uses_domains) {
+          Fit<dim> fit;
+          for_each_cell<dim>(space, basis, filled, [&](int c, const std::vector<GaussPoint<dim>>& gauss) {
+            const auto in_cell = of_cells.of(c);
+            if (fit_stress<dim>(body.points, group, in_cell, gauss, fit)) f(basis, group, in_cell, gauss, fit);
+          });
+        }
+      },
+      space.basis(), body.material);
+}
+
 }  // namespace
 
 template <int dim>
 void add_reconstruction(const Space<dim>& space, const std::vector<Body<dim>>& bodies,
                         const ActiveCells& cells, std::span<double> sums) {
   const Around around = bits_around(space, cells);
+  const Vec<dim> none = Vec<dim>::Zero();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const int bit = 1 << b;
     const Particles<dim>& points = bodies[b].points;
-    std::vector<char> filled(cells.bits.size());
-    for (std::size_t c = 0; c < filled.size(); ++c)
-      filled[c] = around.every[c] == bit && around.any[c] == bit;
-    const PointsOfCells of_cells(points.cell, space.n_cells());
-    std::visit(
-        [&](const auto& basis, const auto& group) {
-          using Basis = std::decay_t<decltype(basis)>;
-          if constexpr (!Basis::uses_domains) {
-            Fit<dim> fit;
-            const Vec<dim> none = Vec<dim>::Zero();
-            for_each_cell<dim>(space, basis, filled, [&](int c, const std::vector<GaussPoint<dim>>& gauss) {
-              const auto in_cell = of_cells.of(c);
-              if (!fit_stress<dim>(points, group, in_cell, gauss, fit)) return;
-              for (const int q : in_cell) {
-                const auto p = static_cast<std::size_t>(q);
-                const Mat<dim> own = -points.volume[p] * matrix<dim>(group.old[p].stress);
-                add_force<dim>(basis.tabulate(points.position[p], none), own, sums);
-              }
-              for (const auto& g : gauss)
-                add_force<dim>(basis.tabulate(g.x, none), Mat<dim>(g.weight * fit.at(g.x)), sums);
-            });
+    for_each_filled<dim>(
+        space, bodies[b], b, around,
+        [&](const auto& basis, const auto& group, auto in_cell, const auto& gauss, const Fit<dim>& fit) {
+          for (const int q : in_cell) {
+            const auto p = static_cast<std::size_t>(q);
+            const Mat<dim> own = -points.volume[p] * matrix<dim>(group.old[p].stress);
+            add_force<dim>(basis.tabulate(points.position[p], none), own, sums);
           }
-        },
-        space.basis(), bodies[b].material);
+          for (const auto& g : gauss)
+            add_force<dim>(basis.tabulate(g.x, none), Mat<dim>(g.weight * fit.at(g.x)), sums);
+        });
   }
 }
 
+template <int dim>
+void smooth_gradients(const Space<dim>& space, const std::vector<Body<dim>>& bodies, std::size_t body,
+                      const ActiveCells& cells, std::span<const double> velocity, std::size_t stride,
+                      std::vector<double>& gradients) {
+  constexpr int terms = Fit<dim>::terms;
+  const Particles<dim>& points = bodies[body].points;
+  gradients.assign(points.position.size() * dim * dim, std::numeric_limits<double>::quiet_NaN());
+  const Vec<dim> none = Vec<dim>::Zero();
+  for_each_filled<dim>(
+      space, bodies[body], body, bits_around(space, cells),
+      [&](const auto& basis, const auto&, auto in_cell, const auto& gauss, Fit<dim> fit) {
+        Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
+        Eigen::Matrix<double, terms, dim * dim> right = Eigen::Matrix<double, terms, dim * dim>::Zero();
+        for (const auto& g : gauss) {
+          Mat<dim> gradient = Mat<dim>::Zero();
+          basis.tabulate(g.x, none).for_each([&](int, int i, double, const Vec<dim>& dphi) {
+            for (int d = 0; d < dim; ++d)
+              gradient.row(d) += velocity[at(i) * stride + at(d)] * dphi.transpose();
+          });
+          const auto t = fit.taylor(g.x);
+          normal += g.weight * t * t.transpose();
+          for (int d = 0; d < dim; ++d)
+            for (int e = 0; e < dim; ++e) right.col(d * dim + e) += g.weight * gradient(d, e) * t;
+        }
+        const Eigen::Matrix<double, terms, dim * dim> coefficient = normal.ldlt().solve(right);
+        for (const int q : in_cell) {
+          const auto p = static_cast<std::size_t>(q);
+          const Eigen::Matrix<double, 1, dim * dim> own = fit.taylor(points.position[p]).transpose() * coefficient;
+          for (int k = 0; k < dim * dim; ++k) gradients[p * dim * dim + at(k)] = own[k];
+        }
+      });
+}
+
+template void smooth_gradients<2>(const Space<2>&, const std::vector<Body<2>>&, std::size_t,
+                                  const ActiveCells&, std::span<const double>, std::size_t,
+                                  std::vector<double>&);
+template void smooth_gradients<3>(const Space<3>&, const std::vector<Body<3>>&, std::size_t,
+                                  const ActiveCells&, std::span<const double>, std::size_t,
+                                  std::vector<double>&);
 template void add_reconstruction<2>(const Space<2>&, const std::vector<Body<2>>&, const ActiveCells&,
                                     std::span<double>);
 template void add_reconstruction<3>(const Space<3>&, const std::vector<Body<3>>&, const ActiveCells&,

@@ -194,5 +194,93 @@ TEST(Reconstruction, KeepsTheSumOfForcesAndLeavesTheEdgeOfTheBodyToThePoints) {
   EXPECT_GT(changed, 10);
 }
 
+/// Velocity gradients of points: smoothed where the cell is filled, else those of the functions.
+std::vector<Mat<2>> strain_gradients(const Space<2>& space, const std::vector<Body<2>>& bodies,
+                                     const std::vector<double>& velocity, int* smoothed) {
+  std::vector<double> given;
+  smooth_gradients<2>(space, bodies, 0, active_cells(space, bodies), velocity, 2, given);
+  std::vector<Mat<2>> list;
+  *smoothed = 0;
+  for (std::size_t p = 0; p < bodies[0].points.position.size(); ++p) {
+    Mat<2> g = Mat<2>::Zero();
+    std::visit(
+        [&](const auto& basis) {
+          basis.tabulate(bodies[0].points.position[p], Vec<2>::Zero())
+              .for_each([&](int, int i, double, const Vec<2>& dphi) {
+                for (int d = 0; d < 2; ++d)
+                  g.row(d) += velocity[static_cast<std::size_t>(2 * i + d)] * dphi.transpose();
+              });
+        },
+        space.basis());
+    if (!std::isnan(given[4 * p])) {
+      ++*smoothed;
+      g << given[4 * p], given[4 * p + 1], given[4 * p + 2], given[4 * p + 3];
+    }
+    list.push_back(g);
+  }
+  return list;
+}
+
+std::vector<Body<2>> located(const Space<2>& space, Body<2> body) {
+  for (const auto& x : body.points.position) {
+    MultiIndex<2> c;
+    for (int d = 0; d < 2; ++d) c[d] = space.structured() ? space.grid().locate_inside(d, x[d]) : 0;
+    body.points.cell.push_back(space.structured() ? space.window().cell_index(c)
+                                                  : space.triangulation().locate(x));
+  }
+  return {std::move(body)};
+}
+
+TEST(Reconstruction, StrainsPointsByWhatItsForceWorksOn) {
+  // Points at the Gauss points have the moments of the cell: then force times velocity is stress times the
+  // gradients that points are strained by, whatever the stress and the velocity.
+  const auto space = squares(n);
+  Body<2> body = random_body(n, linear_field());
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  auto& states = std::get<MaterialStates<LinearElastic, 2>>(body.material).old;
+  body.points = {};
+  states.clear();
+  for (int c = 0; c < n * n; ++c)
+    for (int k = 0; k < 4; ++k) {
+      const double root = 0.5 / std::sqrt(3.0);
+      body.points.position.emplace_back(c % n + 0.5 + (k % 2 ? root : -root), c / n + 0.5 + (k / 2 ? root : -root));
+      body.points.volume.push_back(0.25), body.points.mass.push_back(1.0);
+      body.points.velocity.push_back(Vec<2>::Zero());
+      body.points.deformation_gradient.push_back(Mat<2>::Identity());
+      states.push_back({Sym<2>(any(random), any(random), 0.0, any(random))});
+    }
+  std::vector<double> velocity(static_cast<std::size_t>(2 * space->n_functions()));
+  for (double& v : velocity) v = any(random);
+  const auto bodies = located(*space, body);
+  int smoothed = 0;
+  const auto gradients = strain_gradients(*space, bodies, velocity, &smoothed);
+  EXPECT_GT(smoothed, 4 * 9 - 1);
+  const auto f = forces(*space, {body});
+  double power = 0.0, stored = 0.0;
+  for (std::size_t i = 0; i < f.size(); ++i) power += f[i][0] * velocity[2 * i] + f[i][1] * velocity[2 * i + 1];
+  for (std::size_t p = 0; p < gradients.size(); ++p)
+    stored += 0.25 * (matrix<2>(states[p].stress).cwiseProduct(gradients[p])).sum();
+  EXPECT_NEAR(power, -stored, 1e-12);
+}
+
+TEST(Reconstruction, LeavesSmoothGradientsAsTheyAre) {
+  // The coefficients of v = A x are A Q with Q the functions' places.
+  for (const auto& space : {squares(n), triangles(n, LinearOptions{})}) {
+    Mat<2> a;
+    a << 0.3, -1.2, 0.8, 0.5;
+    std::vector<double> velocity;
+    for (int i = 0; i < space->n_functions(); ++i) {
+      const Vec<2> v = a * space->node_position(i);
+      velocity.push_back(v[0]), velocity.push_back(v[1]);
+    }
+    int smoothed = 0;
+    const auto bodies = located(*space, random_body(n, linear_field()));
+    for (const Mat<2>& g : strain_gradients(*space, bodies, velocity, &smoothed))
+      EXPECT_LT((g - a).norm(), 1e-12);
+    EXPECT_GT(smoothed, 100);
+  }
+}
+
 }  // namespace
 }  // namespace wisp

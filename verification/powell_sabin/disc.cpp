@@ -25,6 +25,8 @@ double angular_momentum(const Particles<2>& points) {
   return sum;
 }
 
+}  // namespace
+
 ModelOptions disc_options(const DiscCase& d) {
   ModelOptions o;
   DelaunayOptions random;
@@ -34,29 +36,29 @@ ModelOptions disc_options(const DiscCase& d) {
   o.basis = PowellSabinOptions{};
   BodyOptions body;
   body.label = "disc";
-  body.shape = Ball{{0.0, 0.0}, 0.3};
+  body.shape = Ball{{0.0, 0.0}, disc_radius};
   body.sampling.method = SamplingMethod::divisions;
   body.sampling.divisions = {d.points_across, d.points_across};
-  Hencky law;
-  law.density = 1000.0, law.young_modulus = 1000.0, law.poisson_ratio = 0.3;
-  body.material = law;
-  body.velocity = {0.35, 0.12};
+  body.material = disc_law();
+  body.velocity = {disc_velocity[0], disc_velocity[1]};
   const double turn = 2.0 * std::numbers::pi * 0.25, expansion = 0.5;
-  body.velocity_gradient = {{expansion, -turn}, {turn, expansion}};
+  if (d.turns) body.velocity_gradient = {{expansion, -turn}, {turn, expansion}};
   o.bodies = {body};
   o.stabilisation = d.ghost;
   return o;
 }
 
-}  // namespace
-
-DiscRun run_disc(const DiscCase& d) {
-  Model<2> model(disc_options(d));
+ExplicitOptions disc_step(const DiscCase& d) {
   ExplicitOptions options;
   options.duration = d.duration, options.dt = d.dt;
   options.stress_update = StressUpdate::projected;
   options.mass = d.mass, options.fmpm_order = d.fmpm_order, options.deactivate_below = d.deactivate_below;
-  Explicit<2> analysis(model, options);
+  return options;
+}
+
+DiscRun run_disc(const DiscCase& d) {
+  Model<2> model(disc_options(d));
+  Explicit<2> analysis(model, disc_step(d));
   const Body<2>& body = model.bodies.front();
   const Vec<2> p = momentum(body.points);
   const double l = angular_momentum(body.points);

@@ -18,7 +18,13 @@ struct DiscCase {
   int seed = 1;
   int points_across = 40;
   double dt = 1e-3, duration = 2.0;
+  bool turns = true;  ///< false: it only flies; what else it does is set afterwards
 };
+constexpr double disc_radius = 0.3;                ///< m
+constexpr double disc_velocity[2] = {0.35, 0.12};  ///< m/s
+inline Hencky disc_law() { return {1000.0, 1000.0, 0.3}; }
+ModelOptions disc_options(const DiscCase& disc);
+ExplicitOptions disc_step(const DiscCase& disc);
 
 struct DiscRun {
   double momentum = 0.0, angular_momentum = 0.0;  ///< largest changes, relative
