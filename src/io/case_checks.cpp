@@ -203,7 +203,8 @@ class Checks {
       context_.fail_at(path + ".method", "Gauss positions need a structured grid");
     const bool cut = body.sampling.clip || !body.sampling.cuts.empty();
     if (cut && std::holds_alternative<Ball>(body.shape))
-      context_.fail_at(path, "points cannot be cut at a ball; give a polygon (2D), or clip = false");
+      context_.fail_at(
+          path, "points cannot be cut at a ball; give a polygon (2D) or an STL file (3D), or clip = false");
     if (cut && triangles)
       context_.fail_at(path, "points are cut on structured grids only; give volumes = \"voronoi\"");
     for (std::size_t k = 0; k < body.sampling.cuts.size(); ++k)
