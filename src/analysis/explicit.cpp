@@ -18,13 +18,6 @@ MassSolverOptions mass_solver_options(const SolverOptions& solver) {
   options.max_iterations = solver.max_iterations;
   return options;
 }
-
-template <int dim>
-std::vector<Wall<dim>> walls_of(const std::vector<AnyBoundary<dim>>& boundaries) {
-  std::vector<Wall<dim>> walls;
-  for_each<Wall>(boundaries, [&](const Wall<dim>& wall, std::size_t) { walls.push_back(wall); });
-  return walls;
-}
 }  // namespace
 
 template <int dim>

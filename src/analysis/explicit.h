@@ -10,6 +10,10 @@
 
 namespace wisp {
 
+/// The walls among the boundaries of a model.
+template <int dim>
+std::vector<Wall<dim>> walls_of(const std::vector<AnyBoundary<dim>>& boundaries);
+
 /// One explicit stage: owns the order of the operations of a step, which are also the names of its timers.
 template <int dim>
 class Explicit {

@@ -9,6 +9,15 @@ constexpr int walls_timer = 5;
 }
 
 template <int dim>
+std::vector<Wall<dim>> walls_of(const std::vector<AnyBoundary<dim>>& boundaries) {
+  std::vector<Wall<dim>> walls;
+  for_each<Wall>(boundaries, [&](const Wall<dim>& wall, std::size_t) { walls.push_back(wall); });
+  return walls;
+}
+template std::vector<Wall<2>> walls_of<2>(const std::vector<AnyBoundary<2>>&);
+template std::vector<Wall<3>> walls_of<3>(const std::vector<AnyBoundary<3>>&);
+
+template <int dim>
 StepMass Explicit<dim>::step_mass() {
   StepMass mass;
   mass.sums = sums_;
@@ -28,6 +37,7 @@ StepMass Explicit<dim>::step_mass() {
 template <int dim>
 void Explicit<dim>::find_walls() {
   const auto timer = model_.timers.start(walls_timer);
+  if (!walls_.is_on(*model_.space)) walls_ = WallContact<dim>(walls_of(model_.boundaries), *model_.space);
   walls_.find(model_.bodies, model_.time, dt_);
 }
 

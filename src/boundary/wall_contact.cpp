@@ -46,9 +46,6 @@ template <int dim>
 WallContact<dim>::WallContact(const std::vector<Wall<dim>>& walls, const Space<dim>& space)
     : walls_(walls.begin(), walls.end()), space_(&space), cutter_(space) {
   if (walls_.empty()) return;
-  if (Session::size() > 1)
-    input_error("boundary '{}': walls in explicit stages run on one rank only, not on {}",
-                walls_.front().name(), Session::size());
   if (!space.structured())
     input_error("boundary '{}': explicit stages have walls on structured grids only", walls_.front().name());
   const StructuredGrid<dim>& grid = space.grid();
@@ -71,48 +68,6 @@ WallContact<dim>::WallContact(const std::vector<Wall<dim>>& walls, const Space<d
 }
 
 template <int dim>
-void WallContact<dim>::cut_walls(double t) {
-  rows_.clear();
-  first_row_.assign(1, 0);
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const auto& motion = walls_[w].motion();
-    if (motion.moves()) {
-      const Mat<dim> turn = motion.rotation(t);
-      const Vec<dim> shift = motion.position(Vec<dim>::Zero(), t);
-      for (WallPiece<dim> piece : pieces_[w]) {
-        for (auto& v : piece.vertex) v = (shift + turn * v).eval();
-        piece.normal = (turn * piece.normal).eval();
-        cutter_.add(piece);
-      }
-    } else {
-      for (const auto& piece : pieces_[w]) cutter_.add(piece);
-    }
-    cutter_.finish(static_cast<int>(w), rows_);
-    first_row_.push_back(rows_.size());
-  }
-  mark_cells();
-}
-
-/// Points within a cell's side of a wall lie in a host cell or a neighbour of one.
-template <int dim>
-void WallContact<dim>::mark_cells() {
-  for (const int c : near_cells_) near_[at(c)] = 0;
-  near_cells_.clear();
-  const auto& window = space_->window();
-  for (const auto& row : rows_) {
-    const MultiIndex<dim> cell = window.cell_multi_index(row.cell);
-    for_each_in(IndexBox<dim>{cell - MultiIndex<dim>::Ones(), cell + MultiIndex<dim>::Constant(2)},
-                [&](const MultiIndex<dim>& c) {
-                  if (!window.contains_cell(c)) return;
-                  const int k = window.cell_index(c);
-                  if (near_[at(k)]) return;
-                  near_[at(k)] = 1;
-                  near_cells_.push_back(k);
-                });
-  }
-}
-
-template <int dim>
 void WallContact<dim>::find(const std::vector<Body<dim>>& bodies, double t, double dt) {
   time_ = t;
   if (any_moves_) cut_walls(t);
@@ -126,6 +81,10 @@ void WallContact<dim>::find(const std::vector<Body<dim>>& bodies, double t, doub
         points_.push_back({static_cast<int>(b), static_cast<int>(p)});
         touch(bodies[b], points_.back(), t);
       }
+  }
+  if (Session::size() > 1) {  // of a row, the least over the points of all ranks
+    Eigen::Map<Eigen::VectorXd> all(gap_.data(), static_cast<Eigen::Index>(gap_.size()));
+    all = Session::min(Eigen::VectorXd(all));
   }
   choose_rows(t, dt);
 }
@@ -170,16 +129,16 @@ int WallContact<dim>::row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal
   const StructuredGrid<dim>& grid = space_->grid();
   MultiIndex<dim> index;
   for (int d = 0; d < dim; ++d) index[d] = grid.locate(d, x[d] + nudge * grid.shortest_side() * normal[d]);
-  if (!space_->window().contains_cell(index)) return -1;
-  const int cell = space_->window().cell_index(index);
-  const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(first_row_[at(wall) + 1]);
-  auto row = std::lower_bound(rows_.begin() + static_cast<std::ptrdiff_t>(first_row_[at(wall)]), end, cell,
-                              [](const WallRow<dim>& r, int c) { return r.cell < c; });
+  if (!space_->window().cell_in_grid(index)) return -1;
+  const std::int64_t cell = number_in(space_->window().grid_cells(), index);
+  const auto begin = cell_of_row_.begin(),
+             end = begin + static_cast<std::ptrdiff_t>(first_row_[at(wall) + 1]);
+  auto row = std::lower_bound(begin + static_cast<std::ptrdiff_t>(first_row_[at(wall)]), end, cell);
   int best = -1;
   double most = -2.0;
-  for (; row != end && row->cell == cell; ++row)
-    if (const double c = row->normal.dot(normal); c > most)
-      most = c, best = static_cast<int>(row - rows_.begin());
+  for (; row != end && *row == cell; ++row)
+    if (const double c = rows_[static_cast<std::size_t>(row - begin)].normal.dot(normal); c > most)
+      most = c, best = static_cast<int>(row - begin);
   return best;
 }
 

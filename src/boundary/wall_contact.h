@@ -7,9 +7,25 @@
 #include "basis/space.h"
 #include "boundary/wall.h"
 #include "boundary/wall_rows.h"
+#include "parallel/session.h"
 #include "particle/body.h"
 
 namespace wisp {
+
+/// Number of a cell or node in the box of the whole grid, x fastest.
+template <int dim>
+std::int64_t number_in(const IndexBox<dim>& box, const MultiIndex<dim>& index) {
+  std::int64_t number = 0;
+  for (int d = dim - 1; d >= 0; --d) number = number * box.upper[d] + index[d];
+  return number;
+}
+/// The inverse.
+template <int dim>
+MultiIndex<dim> index_in(const IndexBox<dim>& box, std::int64_t number) {
+  MultiIndex<dim> index;
+  for (int d = 0; d < dim; ++d) index[d] = static_cast<int>(number % box.upper[d]), number /= box.upper[d];
+  return index;
+}
 
 /// A wall as explicit steps see it.
 template <int dim>
@@ -52,14 +68,18 @@ struct WallReaction {
 /// change of momentum. The velocity that strains the points is projected a second time, on the rows with an
 /// impulse, without touching momentum. docs/theory/walls-explicit.md derives it and says what does not work.
 ///
-/// Nothing is carried from step to step, so that a resumed run gives the same bits.
+/// Nothing is carried from step to step, so that a resumed run gives the same bits. On several ranks each one
+/// keeps the rows of all, which are few beside the points, with the masses and velocities of their functions
+/// as the owners know them, and finds all impulses itself: they are the same on every rank.
 template <int dim>
 class WallContact {
  public:
-  /// `space` must outlive it. Errors (InputError): a wall wholly outside the grid, more than one rank.
+  /// `space` must outlive it. Collective, as all below. Errors (InputError): a wall wholly outside the grid.
   WallContact(const std::vector<Wall<dim>>& walls, const Space<dim>& space);
 
   bool empty() const { return walls_.empty(); }
+  /// Whether it was made for this space: another distribution over the ranks needs another one.
+  bool is_on(const Space<dim>& space) const { return space_ == &space; }
 
   /// Before the velocities of a step from t to t + dt: cuts walls that move, finds points near walls and the
   /// gap of every row. Points must have their cells (`locate`).
@@ -123,14 +143,36 @@ class WallContact {
     bool loaded() const { return lambda_n != 0.0 || !lambda_t.isZero(0.0); }
   };
 
-  // wall_contact.cpp: geometry of a step
+  // wall_contact_rows.cpp: rows from geometry
   void cut_walls(double t);
+  void share_rows();
+  void number_rows();
   void mark_cells();
+  // wall_contact.cpp: what points and rows mean to each other
   void touch(const Body<dim>& body, PointOf at, double t);
   int row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal) const;
   void choose_rows(double t, double dt);
   // wall_impulses.cpp: velocities
+  /// `value_` from value_of(function, direction), asked of the functions that this rank owns.
+  template <class F>
+  void take_values(F&& value_of) {
+    const bool alone = Session::size() == 1;
+    for (std::size_t k = 0; k < functions_.size(); ++k)
+      for (std::size_t d = 0; d < dim; ++d)
+        value_[k * dim + d] = alone || (functions_[k] >= 0 && space_->nodes().owns(functions_[k]))
+                                  ? value_of(static_cast<std::size_t>(functions_[k]), d)
+                                  : 0.0;
+    if (!alone) Session::sum_in_place(value_);
+  }
+  /// Calls take(function, direction, place in `value_`) for those that this rank knows.
+  template <class F>
+  void give_values(F&& take) const {
+    for (std::size_t k = 0; k < functions_.size(); ++k)
+      if (functions_[k] >= 0)
+        for (std::size_t d = 0; d < dim; ++d) take(static_cast<std::size_t>(functions_[k]), d, k * dim + d);
+  }
   void take_functions(const StepMass& mass);
+  void take_masses(const StepMass& mass);
   void couple(const StepMass& mass);
   Vec<dim> row_velocity(const Live& live) const;
   void push(std::size_t r, const Vec<dim>& impulse);
@@ -139,6 +181,7 @@ class WallContact {
   void solve_normal(std::size_t r, double& change);
   void solve_tangent(std::size_t r, double& change);
   void set_reactions(double dt);
+  void add_row(const Live& live, const Vec<dim>& impulse, std::span<double> sum) const;
   void spread(const StepMass& mass, std::span<const Vec<dim>> impulses, std::span<double> change);
   // wall_points.cpp: points
   template <class F>
@@ -151,7 +194,10 @@ class WallContact {
   WallCutter<dim> cutter_;
   bool any_moves_ = false;
   std::vector<std::vector<WallPiece<dim>>> pieces_;  // at rest
-  std::vector<WallRow<dim>> rows_;                   // sorted by wall and cell
+  std::vector<WallRow<dim>> rows_;                   // of all ranks, by wall and cell; functions by place in
+  std::vector<std::int64_t> cell_of_row_;            // number in the whole grid
+  std::vector<std::int64_t> wall_functions_;         // this list of their numbers in the whole grid
+  std::vector<int> local_;                           // their numbers here, or -1
   std::vector<std::size_t> first_row_;               // one a wall, and the end
   std::vector<char> near_;                           // cells that a point near a wall can be in
   std::vector<int> near_cells_;
@@ -159,8 +205,9 @@ class WallContact {
   std::vector<PointOf> points_;
   std::vector<Touch> touches_;
   std::vector<Live> live_;
-  std::vector<int> slot_, functions_;             // slots of functions (-1: none), and back
+  std::vector<int> wall_slot_, slot_, functions_;  // slots of wall functions, of functions, and back; or -1
   std::vector<double> value_, inverse_, before_;  // over slots x dim: velocity, inverse mass, velocity before
+  std::vector<double> slot_mass_;                 // over slots: mass, then for each direction 1 if free
   std::vector<double> momentum_;                  // over slots or light functions
   std::vector<int> light_functions_, light_number_, light_cells_;
   std::vector<char> light_cell_;

@@ -18,37 +18,56 @@ constexpr int max_sweeps = 400;
 /// Functions of the live rows get slots; weights go to functions with mass.
 template <int dim>
 void WallContact<dim>::take_functions(const StepMass& mass) {
-  for (const int f : functions_) slot_[at(f)] = -1;
+  for (const int f : functions_)
+    if (f >= 0) slot_[at(f)] = -1;
   functions_.clear();
-  inverse_.clear();
+  std::fill(wall_slot_.begin(), wall_slot_.end(), -1);
+  for (const Live& live : live_)
+    for (const int i : rows_[at(live.row)].function) {
+      if (wall_slot_[at(i)] >= 0) continue;
+      wall_slot_[at(i)] = static_cast<int>(functions_.size());
+      if (local_[at(i)] >= 0) slot_[at(local_[at(i)])] = wall_slot_[at(i)];
+      functions_.push_back(local_[at(i)]);
+    }
+  take_masses(mass);
+  constexpr std::size_t stride = 1 + dim;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < live_.size(); ++k) {
     Live& live = live_[k];
     const WallRow<dim>& row = rows_[at(live.row)];
     double sum = 0.0;
     for (std::size_t i = 0; i < row.function.size(); ++i) {
-      const auto f = at(row.function[i]);
-      const double m = mass.sums[f * at(mass.stride)];
-      live.weight[i] = m > 0.0 ? row.weight[i] : 0.0;
+      live.slot[i] = wall_slot_[at(row.function[i])];
+      live.weight[i] = slot_mass_[at(live.slot[i]) * stride] > 0.0 ? row.weight[i] : 0.0;
       sum += live.weight[i];
     }
     if (!(sum > 0.0)) continue;  // no material on any of its functions
-    for (std::size_t i = 0; i < row.function.size(); ++i) {
-      live.weight[i] /= sum;
-      const auto f = at(row.function[i]);
-      if (slot_[f] < 0) {
-        slot_[f] = static_cast<int>(functions_.size());
-        functions_.push_back(row.function[i]);
-        const double m = mass.sums[f * at(mass.stride)];
-        for (std::size_t d = 0; d < dim; ++d)
-          inverse_.push_back(m > 0.0 && (mass.fixed.empty() || !mass.fixed[f * dim + d]) ? 1.0 / m : 0.0);
-      }
-      live.slot[i] = slot_[f];
-    }
+    for (double& w : live.weight) w /= sum;
     if (kept != k) live_[kept] = live;
     ++kept;
   }
   live_.resize(kept);
+}
+
+/// Mass and freedom of the functions with slots, from their owners.
+template <int dim>
+void WallContact<dim>::take_masses(const StepMass& mass) {
+  constexpr std::size_t stride = 1 + dim;
+  slot_mass_.assign(functions_.size() * stride, 0.0);
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    if (functions_[k] < 0 || !space_->nodes().owns(functions_[k])) continue;
+    const auto f = at(functions_[k]);
+    slot_mass_[k * stride] = mass.sums[f * at(mass.stride)];
+    for (std::size_t d = 0; d < dim; ++d)
+      slot_mass_[k * stride + 1 + d] = mass.fixed.empty() || !mass.fixed[f * dim + d] ? 1.0 : 0.0;
+  }
+  if (Session::size() > 1) Session::sum_in_place(slot_mass_);
+  inverse_.clear();
+  for (std::size_t k = 0; k < functions_.size(); ++k)
+    for (std::size_t d = 0; d < dim; ++d) {
+      const double m = slot_mass_[k * stride];
+      inverse_.push_back(m > 0.0 && slot_mass_[k * stride + 1 + d] != 0.0 ? 1.0 / m : 0.0);
+    }
   value_.assign(functions_.size() * dim, 0.0);
 }
 
@@ -71,20 +90,24 @@ void WallContact<dim>::couple(const StepMass& mass) {
   solved_.resize(slot_.size() * dim);
   for (std::size_t r = 0; r < n; ++r) {
     const Live& live = live_[r];
-    const auto& function = rows_[at(live.row)].function;
-    for (std::size_t i = 0; i < function.size(); ++i)
-      for (std::size_t d = 0; d < dim; ++d) right_side_[at(function[i]) * dim + d] = live.weight[i];
+    const auto set = [&](bool on) {
+      for (std::size_t i = 0; i < live.slot.size(); ++i)
+        if (const int f = functions_[at(live.slot[i])]; f >= 0)
+          std::fill_n(right_side_.begin() + f * dim, dim, on ? live.weight[i] : 0.0);
+    };
+    set(true);
     std::fill(solved_.begin(), solved_.end(), 0.0);
     mass.solve(right_side_, solved_);
-    for (const int f : function) std::fill_n(right_side_.begin() + f * dim, dim, 0.0);
-    for (std::size_t s = 0; s < n; ++s) {
-      const auto& other = rows_[at(live_[s].row)].function;
-      for (std::size_t i = 0; i < other.size(); ++i)
-        for (std::size_t d = 0; d < dim; ++d)
-          coupling_[(r * n + s) * dim + d] += live_[s].weight[i] * solved_[at(other[i]) * dim + d];
-    }
-    for (int d = 0; d < dim; ++d) live_[r].diagonal[d] = coupling_[(r * n + r) * dim + at(d)];
+    set(false);
+    for (std::size_t s = 0; s < n; ++s)
+      for (std::size_t i = 0; i < live_[s].slot.size(); ++i)
+        if (const int f = functions_[at(live_[s].slot[i])]; f >= 0 && space_->nodes().owns(f))
+          for (std::size_t d = 0; d < dim; ++d)
+            coupling_[(r * n + s) * dim + d] += live_[s].weight[i] * solved_[at(f) * dim + d];
   }
+  if (Session::size() > 1) Session::sum_in_place(coupling_);
+  for (std::size_t r = 0; r < n; ++r)
+    for (int d = 0; d < dim; ++d) live_[r].diagonal[d] = coupling_[(r * n + r) * dim + at(d)];
 }
 
 template <int dim>
@@ -195,17 +218,20 @@ void WallContact<dim>::project() {
   }
 }
 
+/// C^T impulse of one row.
+template <int dim>
+void WallContact<dim>::add_row(const Live& live, const Vec<dim>& impulse, std::span<double> sum) const {
+  for (std::size_t i = 0; i < live.slot.size(); ++i)
+    if (const int f = functions_[at(live.slot[i])]; f >= 0)
+      for (int d = 0; d < dim; ++d) sum[at(f) * dim + at(d)] += live.weight[i] * impulse[d];
+}
+
 /// M^-1 C^T impulses over all functions.
 template <int dim>
 void WallContact<dim>::spread(const StepMass& mass, std::span<const Vec<dim>> impulses,
                               std::span<double> change) {
   std::fill(right_side_.begin(), right_side_.end(), 0.0);
-  for (std::size_t r = 0; r < live_.size(); ++r) {
-    const auto& function = rows_[at(live_[r].row)].function;
-    for (std::size_t i = 0; i < function.size(); ++i)
-      for (int d = 0; d < dim; ++d)
-        right_side_[at(function[i]) * dim + at(d)] += live_[r].weight[i] * impulses[r][d];
-  }
+  for (std::size_t r = 0; r < live_.size(); ++r) add_row(live_[r], impulses[r], right_side_);
   std::fill(change.begin(), change.end(), 0.0);
   mass.solve(right_side_, change);
 }
@@ -215,17 +241,14 @@ void WallContact<dim>::correct_velocity(const StepMass& mass, std::span<const do
                                         std::span<double> acceleration) {
   take_functions(mass);
   couple(mass);
-  for (std::size_t k = 0; k < functions_.size(); ++k)
-    for (std::size_t d = 0; d < dim; ++d) {
-      const std::size_t i = at(functions_[k]) * dim + d;
-      value_[k * dim + d] = velocity[i] + dt * acceleration[i];
-    }
+  take_values(
+      [&](std::size_t f, std::size_t d) { return velocity[f * dim + d] + dt * acceleration[f * dim + d]; });
   if (!consistent_) {
     before_ = value_;
     iterate();
-    for (std::size_t k = 0; k < functions_.size(); ++k)
-      for (std::size_t d = 0; d < dim; ++d)
-        acceleration[at(functions_[k]) * dim + d] += (value_[k * dim + d] - before_[k * dim + d]) / dt;
+    give_values([&](std::size_t f, std::size_t d, std::size_t k) {
+      acceleration[f * dim + d] += (value_[k] - before_[k]) / dt;
+    });
   } else if (!live_.empty()) {
     row_values_.resize(live_.size());
     for (std::size_t r = 0; r < live_.size(); ++r) row_values_[r] = row_velocity(live_[r]);
@@ -261,13 +284,8 @@ void WallContact<dim>::set_reactions(double dt) {
 
 template <int dim>
 void WallContact<dim>::add_force(double dt, std::span<double> force) const {
-  for (const Live& live : live_) {
-    if (!live.loaded()) continue;
-    const Vec<dim> f = live.impulse() / dt;
-    const auto& function = rows_[at(live.row)].function;
-    for (std::size_t i = 0; i < function.size(); ++i)
-      for (int d = 0; d < dim; ++d) force[at(function[i]) * dim + at(d)] += live.weight[i] * f[d];
-  }
+  for (const Live& live : live_)
+    if (live.loaded()) add_row(live, live.impulse() / dt, force);
 }
 
 template <int dim>
@@ -277,8 +295,7 @@ void WallContact<dim>::correct_strain_velocity(const StepMass& mass, std::span<d
     couple(mass);
   }
   if (live_.empty()) return;
-  for (std::size_t k = 0; k < functions_.size(); ++k)
-    for (std::size_t d = 0; d < dim; ++d) value_[k * dim + d] = velocity[at(functions_[k]) * dim + d];
+  take_values([&](std::size_t f, std::size_t d) { return velocity[f * dim + d]; });
   if (consistent_) {
     row_values_.resize(live_.size());
     for (std::size_t r = 0; r < live_.size(); ++r) row_values_[r] = row_velocity(live_[r]);
@@ -298,8 +315,7 @@ void WallContact<dim>::correct_strain_velocity(const StepMass& mass, std::span<d
     for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += solved_[k];
     return;
   }
-  for (std::size_t k = 0; k < functions_.size(); ++k)
-    for (std::size_t d = 0; d < dim; ++d) velocity[at(functions_[k]) * dim + d] = value_[k * dim + d];
+  give_values([&](std::size_t f, std::size_t d, std::size_t k) { velocity[f * dim + d] = value_[k]; });
 }
 
 template class WallContact<2>;

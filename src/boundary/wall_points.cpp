@@ -64,7 +64,7 @@ void WallContact<dim>::calm_light_functions(const std::vector<Body<dim>>& bodies
   double density = 0.0;
   for (const auto& body : bodies) density = std::max(density, body.density());
   find_light_functions(mass, light_share * density * std::pow(space_->grid().shortest_side(), dim));
-  if (light_functions_.empty()) return;
+  if (!Session::any_of(!light_functions_.empty())) return;
   momentum_.assign(light_functions_.size() * dim, 0.0);
   std::visit(
       [&](const auto& basis) {
@@ -85,6 +85,16 @@ void WallContact<dim>::calm_light_functions(const std::vector<Body<dim>>& bodies
         }
       },
       space_->basis());
+  if (Session::size() > 1) {  // points of other ranks reach the same functions
+    std::vector<double> all(slot_.size() * dim, 0.0);
+    for (std::size_t k = 0; k < light_functions_.size(); ++k)
+      std::copy_n(momentum_.begin() + static_cast<std::ptrdiff_t>(k * dim), dim,
+                  all.begin() + light_functions_[k] * dim);
+    space_->nodes().add_update(all.data(), dim);
+    for (std::size_t k = 0; k < light_functions_.size(); ++k)
+      std::copy_n(all.begin() + light_functions_[k] * dim, dim,
+                  momentum_.begin() + static_cast<std::ptrdiff_t>(k * dim));
+  }
   for (std::size_t k = 0; k < light_functions_.size(); ++k) {
     const auto f = at(light_functions_[k]);
     const double m = mass.sums[f * at(mass.stride)];
@@ -93,11 +103,9 @@ void WallContact<dim>::calm_light_functions(const std::vector<Body<dim>>& bodies
         motion[f * at(stride) + d] = momentum_[k * dim + d] / m;
   }
   if (live_.empty()) return;
-  for (std::size_t k = 0; k < functions_.size(); ++k)
-    for (std::size_t d = 0; d < dim; ++d) value_[k * dim + d] = motion[at(functions_[k]) * at(stride) + d];
+  take_values([&](std::size_t f, std::size_t d) { return motion[f * at(stride) + d]; });
   project();
-  for (std::size_t k = 0; k < functions_.size(); ++k)
-    for (std::size_t d = 0; d < dim; ++d) motion[at(functions_[k]) * at(stride) + d] = value_[k * dim + d];
+  give_values([&](std::size_t f, std::size_t d, std::size_t k) { motion[f * at(stride) + d] = value_[k]; });
 }
 
 template <int dim>
@@ -133,6 +141,7 @@ void WallContact<dim>::blend(std::vector<Body<dim>>& bodies) {
           for (int d = 0; d < dim; ++d) sum[1 + d] += phi * points.mass[p] * points.velocity[p][d];
         });
       });
+  if (Session::size() > 1) Session::sum_in_place(momentum_);
   for_each_near_stencil(
       bodies, [&](const PointOf& which, const Particles<dim>& points, std::size_t p, const auto& stencil) {
         Vec<dim> change = Vec<dim>::Zero();

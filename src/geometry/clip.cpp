@@ -10,6 +10,10 @@
 
 namespace wisp {
 
+template <>
+ClippedBox<3> clip_box<3>(const Region<3>& shape, const std::vector<HalfSpace<3>>& cuts,
+                          const Eigen::Vector3d& lower, const Eigen::Vector3d& upper);
+
 namespace {
 
 template <int dim>
@@ -160,6 +164,48 @@ ClippedTriangle triangle_of(const std::vector<Corners<2>>& rings, const Vector<2
   return part;
 }
 
+/// A part of a surface of triangles that two directions have flattened onto a line encloses nothing.
+bool beyond_two_sides(const Block<3>& part, const Vector<3>& lower, const Vector<3>& upper) {
+  return ((part.lower.array() >= upper.array()) || (part.upper.array() <= lower.array())).count() > 1;
+}
+
+/// What lies beyond a plane is projected onto it: what a closed surface encloses on the inner side stays, the
+/// rest becomes flat. So a solid is cut by its surface alone, without looking for the rest of its boundary.
+ClippedBox<3> clip(const Solid& solid, const std::vector<HalfSpace<3>>& cuts, const Vector<3>& lower,
+                   const Vector<3>& upper) {
+  const Vector<3> origin = 0.5 * (lower + upper);
+  const double reach = 0.5 * (upper - lower).norm(), inside = solid.distance(origin);
+  if (inside < -reach) return {};
+  if (inside > reach) return clip_box<3>(Block<3>{lower, upper}, cuts, lower, upper);
+  std::vector<HalfSpace<3>> all = sides<3>(lower, upper);
+  for (const auto& cut : cuts) all.push_back({cut.point, cut.normal.normalized()});
+  Integrals<3> sum;
+  std::vector<Corners<3>> parts, next;
+  const auto add = [&](int facet) {
+    const auto v = solid.surface().piece(facet).vertex;
+    const Block<3> box{v[0].cwiseMin(v[1]).cwiseMin(v[2]), v[0].cwiseMax(v[1]).cwiseMax(v[2])};
+    if (beyond_two_sides(box, lower, upper)) return;
+    parts.assign(1, Corners<3>(v.begin(), v.end()));
+    for (const auto& half : all) {
+      next.clear();
+      for (const auto& part : parts) {
+        Corners<3> in = cut_corners<3>(part, half);
+        Corners<3> out = cut_corners<3>(part, {half.point, -half.normal});
+        for (auto& x : out) x -= (x - half.point).dot(half.normal) * half.normal;
+        if (in.size() > 2) next.push_back(std::move(in));
+        if (out.size() > 2) next.push_back(std::move(out));
+      }
+      parts.swap(next);
+    }
+    for (const auto& part : parts)
+      for (std::size_t k = 1; k + 1 < part.size(); ++k)
+        sum.add({part[0] - origin, part[k] - origin, part[k + 1] - origin});
+  };
+  solid.surface().for_each_but([&](const Block<3>& box) { return beyond_two_sides(box, lower, upper); }, add);
+  // Less than this is the rounding of parts that cancel.
+  return sum.volume > 1e-12 * (upper - lower).prod() ? sum.about(origin) : ClippedBox<3>{};
+}
+
 }  // namespace
 
 ClippedTriangle clip_triangle(const Region<2>& shape, const std::vector<HalfSpace<2>>& cuts,
@@ -210,8 +256,10 @@ ClippedBox<2> clip_box<2>(const Region<2>& shape, const std::vector<HalfSpace<2>
 template <>
 ClippedBox<3> clip_box<3>(const Region<3>& shape, const std::vector<HalfSpace<3>>& cuts,
                           const Vector<3>& lower, const Vector<3>& upper) {
+  if (const auto* solid = std::get_if<Solid>(&shape)) return clip(*solid, cuts, lower, upper);
   const auto* block = std::get_if<Block<3>>(&shape);
-  if (!block) input_error("shape: points cannot be cut at a ball; give a box with cuts, or clip = false");
+  if (!block)
+    input_error("shape: points cannot be cut at a ball; give a box with cuts, an STL file, or clip = false");
   const Vector<3> a = lower.cwiseMax(block->lower), b = upper.cwiseMin(block->upper);
   if (!((b - a).minCoeff() > 0.0)) return {};
   std::vector<Corners<3>> faces = faces_of(a, b);

@@ -25,7 +25,8 @@ struct ClippedBox {
 
 /// The part of the box [lower, upper] in a shape and in half-spaces, exact to rounding: over boxes that tile
 /// the shape the volumes sum to its own. Polygons ring by ring (see clip_cell); boxes in 3D as convex
-/// polyhedra cut plane by plane. Throws InputError for balls, which are no polygons.
+/// polyhedra cut plane by plane, solids by their triangles. Throws InputError for balls, which are no
+/// polygons.
 template <int dim>
 ClippedBox<dim> clip_box(const Region<dim>& shape, const std::vector<HalfSpace<dim>>& cuts,
                          const Eigen::Matrix<double, dim, 1>& lower,

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "geometry/region.h"
+#include "geometry/block.h"
 #include "geometry/wall_piece.h"
 
 namespace wisp {
@@ -23,6 +23,21 @@ class FacetedSurface {
   const std::vector<Vector>& vertices() const { return vertices_; }
   const std::vector<Facet>& facets() const { return facets_; }
   WallPiece<dim> piece(int facet) const;
+  /// Calls f(facet) for the facets in boxes of the tree that `skip` (a Block) does not leave out.
+  template <class Skip, class F>
+  void for_each_but(Skip&& skip, F&& f) const {
+    std::array<int, 80> stack{};
+    std::size_t depth = 1;
+    while (depth > 0) {
+      const Node& node = tree_[static_cast<std::size_t>(stack[--depth])];
+      if (skip(Block<dim>{node.lower, node.upper})) continue;
+      if (node.child >= 0) {
+        stack[depth++] = node.child + 1, stack[depth++] = node.child;
+        continue;
+      }
+      for (int k = node.first; k < node.last; ++k) f(order_[static_cast<std::size_t>(k)]);
+    }
+  }
   Block<dim> bounds() const { return {tree_.front().lower, tree_.front().upper}; }
 
   /// Signed distance, positive on the side of the normals. The sign at vertices and edges comes from the

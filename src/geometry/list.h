@@ -8,11 +8,12 @@
 #include "geometry/mesh_shape.h"
 #include "geometry/point_file.h"
 #include "geometry/polygon.h"
+#include "geometry/solid.h"
 
 namespace wisp {
 
 /// Shapes of which a body can be made.
-using AnyShape = std::variant<Box, Ball, Polygon, PointFile, MeshShape>;
+using AnyShape = std::variant<Box, Ball, Polygon, PointFile, MeshShape, StlSolid>;
 
 /// Shapes with an inside, for choosing points or nodes.
 using AnyRegion = std::variant<Box, Ball, Polygon>;

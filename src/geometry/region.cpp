@@ -42,7 +42,21 @@ Region<dim> make(const Polygon& polygon, const std::filesystem::path& folder) {
   if constexpr (dim == 2) {
     return outline(polygon, folder);
   } else {
-    input_error("polygon: a shape for 2D, but the case is 3D; expected box, ball or points");
+    input_error("polygon: a shape for 2D, but the case is 3D; expected box, ball, stl or points");
+  }
+}
+
+template <int dim>
+Region<dim> make(const StlSolid& stl, const std::filesystem::path& folder) {
+  if constexpr (dim == 3) {
+    if (!(stl.scale > 0.0) || !std::isfinite(stl.scale))
+      input_error("stl: 'scale' is {}, expected a positive finite number", stl.scale);
+    const auto offset = vector<3>(stl.offset, StlSolid::name, "offset");
+    Triangles mesh = read_stl(folder / stl.file);
+    for (auto& x : mesh.vertices) x = stl.scale * x + offset;
+    return Solid(std::move(mesh));
+  } else {
+    input_error("stl: a shape for 3D, but the case is 2D; expected box, ball, polygon or points");
   }
 }
 

@@ -6,22 +6,12 @@
 #include <type_traits>
 #include <variant>
 
+#include "geometry/block.h"
 #include "geometry/list.h"
 #include "geometry/outline.h"
+#include "geometry/solid.h"
 
 namespace wisp {
-
-/// Axis-aligned box; also the answer of `bounds`. Half-open, so that boxes side by side never share a point.
-template <int dim>
-struct Block {
-  using Vector = Eigen::Matrix<double, dim, 1>;
-  Vector lower;  ///< m
-  Vector upper;  ///< m
-
-  bool contains(const Vector& x) const {
-    return (x.array() >= lower.array()).all() && (x.array() < upper.array()).all();
-  }
-};
 
 /// Ball (disc in 2D), boundary included.
 template <int dim>
@@ -37,12 +27,12 @@ struct Sphere {
 ///     std::visit([&](const auto& r) { for (...) if (r.contains(x)) ...; }, region);
 template <int dim>
 using Region = std::conditional_t<dim == 2, std::variant<Block<dim>, Sphere<dim>, Outline>,
-                                  std::variant<Block<dim>, Sphere<dim>>>;
+                                  std::variant<Block<dim>, Sphere<dim>, Solid>>;
 
 /// Checks a shape and makes it ready. `folder` is where relative file names start from. Throws InputError,
 /// which names shape and key, for a wrong number of values, numbers that are not finite, lower >= upper, a
-/// radius that is not positive, a polygon in 3D or one that is not simple, and for PointFile, which has no
-/// inside.
+/// radius that is not positive, a polygon in 3D or one that is not simple, an STL file in 2D or a faulty one,
+/// and for PointFile, which has no inside.
 template <int dim>
 Region<dim> region(const AnyShape& shape, const std::filesystem::path& folder = {});
 template <int dim>
@@ -58,6 +48,7 @@ Block<dim> bounds(const Sphere<dim>& sphere) {
   return {sphere.centre.array() - sphere.radius, sphere.centre.array() + sphere.radius};
 }
 inline Block<2> bounds(const Outline& outline) { return {outline.lower(), outline.upper()}; }
+inline Block<3> bounds(const Solid& solid) { return solid.surface().bounds(); }
 /// Of points: their domains included if they have half-lengths.
 template <int dim>
 Block<dim> bounds(const PointTable<dim>& table);
@@ -73,6 +64,7 @@ double measure(const Sphere<dim>& sphere) {
   return dim == 2 ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r;
 }
 inline double measure(const Outline& outline) { return outline.area(); }
+inline double measure(const Solid& solid) { return solid.volume(); }
 /// Of points: the sum of their volumes.
 template <int dim>
 double measure(const PointTable<dim>& table);

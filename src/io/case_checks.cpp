@@ -214,7 +214,8 @@ class Checks {
       context_.fail_at(path + ".volumes", "Voronoi volumes need a grid of triangles");
     const bool cut = body.sampling.clip || !body.sampling.cuts.empty();
     if (cut && std::holds_alternative<Ball>(body.shape))
-      context_.fail_at(path, "points cannot be cut at a ball; give a polygon (2D), or clip = false");
+      context_.fail_at(
+          path, "points cannot be cut at a ball; give a polygon (2D) or an STL file (3D), or clip = false");
     if (cut && triangles) on_triangles(body, path);
     for (std::size_t k = 0; k < body.sampling.cuts.size(); ++k)
       if (body.sampling.cuts[k].size() != 2 * dim)

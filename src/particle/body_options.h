@@ -53,7 +53,7 @@ struct Sampling {
             .per_direction(),
         key("clip", &Sampling::clip, "",
             "cut the points' sub-domains at the outline of the shape: volumes and centroids of "
-            "what is left, the total exact (box, polygon)"),
+            "what is left, the total exact (box, polygon, stl)"),
         key("cuts", &Sampling::cuts, "m",
             "planes (2D: lines) that cut the sub-domains as well: a point and a normal into "
             "the body each, as one list of numbers")};

@@ -184,6 +184,74 @@ void static_case(Comparison& comparison, const std::string& name, bool gimp, boo
   comparison.add(name, model);
 }
 
+WallOptions wall(const char* label, AnyWallShape shape) {
+  WallOptions w;
+  w.label = label, w.shape = std::move(shape);
+  return w;
+}
+
+/// A block that falls into an inclined corner and turns there, across the middle of the grid: unilateral with
+/// friction, a wall that moves, one that holds.
+template <int dim>
+ModelOptions cornered(bool gimp) {
+  auto o = on_grid<dim>(Vec<dim>::Constant(-1.0), Vec<dim>::Constant(1.0),
+                        MultiIndex<dim>::Constant(dim == 2 ? 16 : 8), gimp);
+  const Vec<dim> half = Vec<dim>::Constant(dim == 2 ? 0.3 : 0.35);
+  auto& body = add_box<dim>(o, -half, half, Hencky{1000.0, 2e4, 0.3});
+  body.velocity.assign(dim, -1.5), body.velocity[0] = 1.2;
+  std::vector<double> at(dim, 0.0), normal(dim, 0.0), g(dim, 0.0);
+  at[1] = -0.5, normal[0] = -0.3, normal[1] = 1.0, normal[dim - 1] += 0.1;
+  WallOptions slope = wall("slope", PlaneWall{at, normal});
+  slope.unilateral = true, slope.friction = 0.2;
+  o.boundaries.push_back(slope);
+  at[1] = 0.0, at[0] = 0.45, normal.assign(dim, 0.0), normal[0] = -1.0, normal[1] = 0.1;
+  WallOptions side = wall("side", PlaneWall{at, normal});
+  side.unilateral = true, side.motion.emplace();
+  side.motion->velocity.assign(dim, Curve(0.0)), side.motion->velocity[0] = Curve(-0.5);
+  o.boundaries.push_back(side);
+  g[1] = -9.81;
+  add_gravity(o, g);
+  return o;
+}
+
+/// A block between inclined walls, held by one and pressed by another.
+template <int dim>
+void wall_case(Comparison& comparison, const std::string& name, bool gimp, bool finite, bool dynamic) {
+  auto o = on_grid<dim>(Vec<dim>::Constant(-0.83), Vec<dim>::Constant(0.97),
+                        MultiIndex<dim>::Constant(dim == 2 ? 14 : 8), gimp);
+  auto& body = add_box<dim>(o, Vec<dim>::Constant(-0.45), Vec<dim>::Constant(0.45), Hencky{1000.0, 1e6, 0.3});
+  if (!finite) body.material = LinearElastic{1000.0, 1e6, 0.3};
+  std::vector<double> at(dim, 0.0), down(dim, 0.0), g(dim, 0.0);
+  at[1] = -0.36, down[0] = 0.2, down[1] = 1.0;
+  WallOptions base = wall("base", PlaneWall{at, down});
+  base.kind = WallKind::fixed;
+  body.sampling.cuts.push_back(at), body.sampling.cuts.back().insert(body.sampling.cuts.back().end(),
+                                                                     down.begin(), down.end());
+  o.boundaries.push_back(base);
+  at[1] = 0.36, down[0] = 0.1, down[1] = -1.0;
+  WallOptions press = wall("press", PlaneWall{at, down});
+  press.kind = WallKind::roller, press.displacement.assign(dim, Curve(0.0));
+  press.displacement[0] = Curve({{0.0, 0.0}, {1.0, finite ? 0.1 : 0.01}});
+  body.sampling.cuts.push_back(at), body.sampling.cuts.back().insert(body.sampling.cuts.back().end(),
+                                                                     down.begin(), down.end());
+  o.boundaries.push_back(press);
+  g[0] = 5.0;
+  add_gravity(o, g, ramp());
+  Model<dim> model(o);
+  QuasiStaticOptions q;
+  q.steps = 5, q.tolerance = 1e-11, q.max_iterations = 20;
+  if (dynamic) {
+    ImplicitDynamicOptions d;
+    d.duration = 1.0, d.steps = 5, d.tolerance = 1e-11, d.max_iterations = 20;
+    Implicit<dim> run(model, d);
+    for (int k = 0; k < 5; ++k) run.step(0.2);
+  } else {
+    Implicit<dim> run(model, q);
+    for (int k = 0; k < 5; ++k) run.step(0.2);
+  }
+  comparison.add(name, model);
+}
+
 void leaving(Comparison& comparison) {
   auto o = collision<2>(true);
   o.grid.leaving = Leaving::remove;
@@ -225,6 +293,21 @@ bool all_cases(const std::string& file) {
   static_case<2>(comparison, "static", false, true);
   static_case<2>(comparison, "static-gimp", true, true);
   static_case<3>(comparison, "static-3d", true, true);
+  explicit_case<2>(comparison, "walls", cornered<2>(false), lumped, StressUpdate::usl, VelocityUpdate::flip);
+  explicit_case<2>(comparison, "walls-pic", cornered<2>(false), lumped, StressUpdate::usl,
+                   VelocityUpdate::apic);
+  explicit_case<2>(comparison, "walls-gimp-musl", cornered<2>(true), lumped, StressUpdate::musl,
+                   VelocityUpdate::flip);
+  explicit_case<2>(comparison, "walls-gimp-usf", cornered<2>(true), lumped, StressUpdate::usf,
+                   VelocityUpdate::flip);
+  explicit_case<2>(comparison, "walls-ghost", cornered<2>(true), ghost, StressUpdate::usl,
+                   VelocityUpdate::flip);
+  explicit_case<3>(comparison, "walls-3d", cornered<3>(true), lumped, StressUpdate::usl,
+                   VelocityUpdate::flip);
+  wall_case<2>(comparison, "wall-static", false, false, false);
+  wall_case<2>(comparison, "wall-static-finite", true, true, false);
+  wall_case<2>(comparison, "wall-dynamic", true, true, true);
+  wall_case<3>(comparison, "wall-static-3d", true, true, false);
   leaving(comparison);
   return !comparison.failed();
 }

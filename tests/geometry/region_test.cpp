@@ -164,6 +164,7 @@ TEST(List, NamesAndKeysAreUniqueAndExplained) {
   check(Polygon{});
   check(PointFile{});
   check(MeshShape{});
+  check(StlSolid{});
   EXPECT_EQ(names.size(), std::variant_size_v<AnyShape>);
 }
 

@@ -80,6 +80,37 @@ def check_cylinder(results):
         expect(abs(found - force) < 0.02 * force, f"the inner wall pushes with {found} N/m, exactly {force} N/m")
 
 
+def enclosed(file, point, normal):
+    """Volume that the triangles of an STL file enclose on the side of a plane that its normal points to: pyramids over
+    what the plane leaves of each triangle, with their tips on the plane, so that the cut face has none."""
+    with open(file, encoding="ascii") as stream:
+        corners = [[float(x) for x in line.split()[1:]] for line in stream if line.split()[:1] == ["vertex"]]
+    volume = 0.0
+    for triangle in np.array(corners).reshape(-1, 3, 3) - point:
+        heights = triangle @ normal
+        left = []
+        for k in range(3):
+            a, b, height, next_height = triangle[k], triangle[(k + 1) % 3], heights[k], heights[(k + 1) % 3]
+            if height >= 0:
+                left.append(a)
+            if height * next_height < 0:
+                left.append(a + height / (height - next_height) * (b - a))
+        for k in range(1, len(left) - 1):
+            volume += np.dot(left[0], np.cross(left[k], left[k + 1])) / 6.0
+    return volume
+
+
+def check_filling(results):
+    bowl = os.path.join(os.path.dirname(__file__), "../../examples/15-stl-wall/bowl.stl")
+    exact = enclosed(bowl, np.array([0.5, 0.5, 0.5]), np.array([0.1, 0.0, -1.0]))
+    volume = np.sum(results.points(0)["initial_volume"])
+    expect(0.05 < exact < 0.134 and abs(volume - exact) < 1e-12, f"points fill {volume} m3, exactly {exact} m3")
+    weight = 1000.0 * 9.81 * exact
+    carried = results.history["reaction mould z [N]"][-1]
+    expect(abs(carried - weight) < 1e-6 * weight, f"the mould carries {carried} N, the weight is {weight} N")
+    expect(results.history["middle displacement z [m]"][-1] < -0.01, "the middle sinks")
+
+
 def main(program, case):
     name = os.path.basename(os.path.dirname(case))
     with tempfile.TemporaryDirectory() as folder:
@@ -97,6 +128,8 @@ def main(program, case):
             check_column(results)
         if name == "07-gmsh-arch":
             check_arch(results)
+        if name == "18-stl-body":
+            check_filling(results)
         if name == "08-vibrating-bar":
             check_bar(results)
         if name == "19-walls-on-triangles":

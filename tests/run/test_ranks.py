@@ -7,6 +7,8 @@ import os
 import sys
 import tempfile
 
+import numpy as np
+
 from program import difference, expect, expect_success, wisp, write_case
 from wisp.results import Results
 
@@ -15,6 +17,11 @@ STAGES = {
     "lumped": 'type = "explicit"\nduration = 0.05\nsteps = 50\nvelocity_update = "apic"',
     "quasi-static": 'type = "quasi-static"\nduration = 1.0\nsteps = 5\ntolerance = 1e-9',
     "clamped on one side": 'type = "quasi-static"\nduration = 1.0\nsteps = 5\ntolerance = 1e-9',
+}
+
+WALLS = {
+    "14-incline-with-friction": ("stage[0].duration=0.1", "output.checkpoint_every=40"),
+    "10-inclined-block": ("output.checkpoint_every=2",),
 }
 
 
@@ -62,6 +69,32 @@ def main(program, ranks):
             expect_success(wisp(program, "run", ghosts, "--out", out, "--ranks", number, "--set", "stage[0].steps=50",
                                 "--set", "stage[0].duration=0.175"))
         compare("flying bodies", *folders, ignored=("stress",))  # of free flight: rounding alone
+        walls(program, ranks, folder)
+
+
+def walls(program, ranks, folder):
+    """Examples with walls: points, the reactions' history, and both again from a checkpoint in the middle."""
+    for example, settings in WALLS.items():
+        case = os.path.join(os.path.dirname(__file__), "../../examples", example, "case.toml")
+        outs = [os.path.join(folder, f"{example}-{number}") for number in ("1", ranks)]
+        for number, out in zip(("1", ranks), outs):
+            more = [word for setting in settings for word in ("--set", setting)]
+            expect_success(wisp(program, "run", case, "--out", out, "--ranks", number, *more))
+        for resumed in (False, True):
+            what = example + (", resumed" if resumed else "")
+            compare(what, *outs)
+            one, many = (Results(out).history for out in outs)
+            expect(sorted(one) == sorted(many), f"{what}: columns of the history")
+            for name in one:
+                scale = max(np.max(np.abs(one[name])), 1e-300)
+                gap = np.max(np.abs(np.asarray(one[name]) - np.asarray(many[name]))) / scale
+                expect(not any(word in name for word in ("reaction", "moment", "work")) or gap <= 1e-8,
+                       f"{what}: {name} of the history differs by {gap:.2e}")
+            newest = max(f for f in os.listdir(outs[1]) if f.startswith("checkpoint-")).split(".")[0]
+            for file in os.listdir(outs[1]):
+                if file.startswith(newest):
+                    os.truncate(os.path.join(outs[1], file), 64)
+            expect_success(wisp(program, "resume", outs[1], "--ranks", ranks))
 
 
 if __name__ == "__main__":
