@@ -69,6 +69,7 @@ AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<di
   const auto& wall = std::get<WallOptions>(options);
   if (!space.structured())
     input_error("boundary '{}': walls need a structured grid; on triangles hold a named part", wall.label);
+  if (!space.nodal()) input_error("boundary '{}': walls need linear or GIMP functions", wall.label);
   return Wall<dim>(wall, folder);
 }
 
