@@ -25,25 +25,24 @@ void patch(int degree) {
   auto o = on_grid<dim>(lower, upper, MultiIndex<dim>::Constant(3), false);
   o.basis = splines(degree);
   auto& body = add_box<dim>(o, lower, upper, LinearElastic{1.0, E, nu});
-  body.sampling.method = SamplingMethod::gauss;
+  body.sampling.method = SamplingMethod::gauss, body.sampling.points_per_cell = degree + 1;
   for (int d = 0; d < dim; ++d) hold(o, d == 0 ? "x" : d == 1 ? "y" : "z", 0.0, std::string(1, "xyz"[d]));
   hold(o, "x", 1.0, "x").displacement = ramp(pull);
   Model<dim> model(o);
   QuasiStaticOptions q;
-  q.steps = 2;
+  q.steps = 1;
   Implicit<dim> run(model, q);
-  for (int k = 0; k < 2; ++k) run.step(0.5);
+  run.step(1.0);
   Sym<dim> sigma = Sym<dim>::Zero();
   sigma[0] = dim == 2 ? E / (1 - nu * nu) * pull : E * pull;
   if (dim == 2) sigma[2] = nu * sigma[0];
-  // Small strains, but functions of the second step are those of the moved points.
-  EXPECT_LT(stress_error(model, [&](const auto&, std::size_t) { return sigma; }), 2e-3 * sigma[0]) << degree;
-  EXPECT_NEAR(model.reactions[dim][0], sigma[0], 2e-3 * sigma[0]) << degree;
+  EXPECT_LT(stress_error(model, [&](const auto&, std::size_t) { return sigma; }), 1e-9 * sigma[0]) << degree;
+  EXPECT_NEAR(model.reactions[dim][0], sigma[0], 1e-9 * sigma[0]) << degree;
   const double narrow = dim == 2 ? nu / (1 - nu) : nu;
   for_each_point(model, [&](const auto& b, std::size_t p) {
     const Vec<dim> x = b.points.position[p] - b.points.displacement[p];
-    ASSERT_NEAR(b.points.displacement[p][0], pull * x[0], 2e-6);
-    ASSERT_NEAR(b.points.displacement[p][1], -narrow * pull * x[1], 2e-6);
+    ASSERT_NEAR(b.points.displacement[p][0], pull * x[0], 1e-12);
+    ASSERT_NEAR(b.points.displacement[p][1], -narrow * pull * x[1], 1e-12);
   });
 }
 
@@ -102,15 +101,17 @@ TEST(BSplines, MomentumStaysWhileABlockSpinsAndDeforms) {
 
 /// A bar held at x = 0 and free at x = 1 of n cells, with the velocity v0 sin(pi x / 2) at the start.
 struct Bar {
-  static constexpr double modulus = 100.0, v0 = 1e-3;
+  static constexpr double modulus = 100.0, v0 = 1e-6;
   static constexpr double omega = 0.5 * std::numbers::pi * 10.0;
 
-  Bar(const AnyBasisOptions& basis, int n, int points, double speed = v0)
+  Bar(const AnyBasisOptions& basis, int n, int points, double speed = v0,
+      SamplingMethod method = SamplingMethod::cells)
       : model([&] {
           auto o =
               on_grid<2>({0.0, 0.0}, {speed > v0 ? 1.25 : 1.0, 0.25}, {speed > v0 ? 5 * n / 4 : n, 1}, false);
           o.basis = basis;
-          add_box<2>(o, {0.0, 0.0}, {1.0, 0.25}, LinearElastic{1.0, modulus, 0.0}, points);
+          add_box<2>(o, {0.0, 0.0}, {1.0, 0.25}, LinearElastic{1.0, modulus, 0.0}, points).sampling.method =
+              method;
           hold(o, "x", 0.0, "x");
           hold(o, "y", 0.0, "y");
           hold(o, "y", 0.25, "y");
@@ -139,19 +140,19 @@ struct Bar {
 
 /// After a quarter of the period, the consistent mass.
 double bar_error(const AnyBasisOptions& basis, int n, double dt = 5e-4) {
-  Bar bar(basis, n, 8);
+  Bar bar(basis, n, 4, Bar::v0, SamplingMethod::gauss);
   Explicit<2> run(bar.model, explicit_steps(dt, Mass::consistent));
   while (bar.model.time < 0.1 - 0.5 * dt) run.step(dt);
   return bar.error();
 }
 
 TEST(BSplines, VibratingBarConvergesAtTheOrderOfItsFunctions) {
-  // The velocity is that of half a step before its time, an error of second order in the step: it has to be
-  // small beside the error in space.
+  // Gauss points, or the sums over even points hide the order of cubics. The velocity is that of half a step
+  // before its time, an error of second order in the step: it has to be small beside the error in space.
   const double two = bar_error(splines(2), 2), fine_two = bar_error(splines(2), 4);
-  const double three = bar_error(splines(3), 2, 5e-5), fine_three = bar_error(splines(3), 4, 5e-5);
+  const double three = bar_error(splines(3), 2, 1e-4), fine_three = bar_error(splines(3), 4, 1e-4);
   EXPECT_GT(order(two, fine_two), 2.7) << two << " " << fine_two;
-  EXPECT_GT(order(three, fine_three), 3.7) << three << " " << fine_three;
+  EXPECT_GT(order(three, fine_three), 3.4) << three << " " << fine_three;
   const double linear = bar_error(LinearOptions{}, 4);
   EXPECT_LT(fine_two, 0.1 * linear) << linear;
   EXPECT_EQ(bar_error(splines(1), 4), linear);  // the same functions, the same numbers
@@ -237,7 +238,13 @@ TEST(BSplines, RefuseWhatTheyCannotDo) {
   refused([](ModelOptions& o) { pin(o, {0.0, -1.0}, "x"); }, "edges of the grid");
   refused([](ModelOptions& o) { o.boundaries.push_back(WallOptions{}); }, "linear or GIMP");
   refused([](ModelOptions& o) { o.basis = splines(5); }, "degree 5 is not built");
-  refused([](ModelOptions& o) { o.triangulation = TriangleBlocksOptions{}; }, "structured grid");
+  refused(
+      [](ModelOptions& o) {
+        TriangleBlocksOptions blocks;
+        blocks.lower = {-1.0, -1.0}, blocks.upper = {1.0, 1.0}, blocks.cells = {4, 4};
+        o.triangulation = blocks;
+      },
+      "structured grid");
 }
 
 }  // namespace
