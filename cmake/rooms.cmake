@@ -52,6 +52,9 @@ if(WISP_SANITIZE)
   target_compile_options(wisp_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                 -fno-omit-frame-pointer -g1)
   target_link_options(wisp_options INTERFACE -fsanitize=address,undefined)
+  # Without optimisation these attributes still copy a kernel with all its checks into every caller: three times the
+  # time to compile room transfer, and 2 GB for one file.
+  target_compile_definitions(wisp_options INTERFACE always_inline=unused flatten=unused)
 endif()
 
 set(WISP_ROOMS "" CACHE INTERNAL "")
@@ -87,6 +90,8 @@ function(wisp_program)
     target_link_libraries(wisp PRIVATE wisp_app)
     if(TARGET wisp_verification)
       target_link_libraries(wisp PRIVATE wisp_verification)
+    else()
+      target_sources(wisp PRIVATE ${PROJECT_SOURCE_DIR}/tests/sanitize/no_tables.cc)
     endif()
   endif()
 endfunction()

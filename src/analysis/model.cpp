@@ -203,8 +203,9 @@ void Model<dim>::remove_outside(std::size_t outside) {
   if (!examples.empty())
     error = fmt::format(
         "step {} at t = {:.6g} s: {} point{} left the grid: {}; enlarge the grid, hold its edge by a "
-        "boundary, "
-        "or set leaving = \"remove\" in [grid]",
+        "boundary, set leaving = \"remove\" in [grid], or if too long a step threw them out, use a smaller "
+        "dt or "
+        "cfl",
         step, time, outside, outside == 1 ? "" : "s", examples);
   Session::raise_together(error);
 }

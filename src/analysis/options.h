@@ -194,7 +194,7 @@ struct OutputOptions {
         key("condition_numbers", &O::condition_numbers, "",
             "condition number of the mass or stiffness matrix (costly)"),
         key("critical_time_step", &O::critical_time_step, "",
-            "2/sqrt of the largest eigenvalue of (K, M) (costly)"),
+            "longest stable step of the stage's mass and stress update (costly)"),
         key("checkpoint_every", &O::checkpoint_every, "-",
             "steps between checkpoints (0: only at the end of a stage)")
             .at_least(0),

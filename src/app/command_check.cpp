@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/program.h"
+#include "grid/triangulate.h"
 
 namespace wisp {
 
@@ -32,6 +33,11 @@ void add_check(CLI::App& app, int* status) {
           stage);
     fmt::print("{}: valid. {} dimensions, {} {}, {}\n", o->file, c.dimension, c.bodies.size(),
                c.bodies.size() == 1 ? "body" : "bodies", stages);
+    if (const auto triangles = triangulation_of(c.grid)) {
+      const Triangulation mesh = make_triangulation(*triangles, c.file.folder);
+      fmt::print("{}\n", quality_line(mesh));
+      if (const std::string warning = sliver_warning(mesh); !warning.empty()) fmt::print("{}\n", warning);
+    }
     *status = 0;
   });
 }

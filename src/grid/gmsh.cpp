@@ -34,7 +34,10 @@ class Words {
 
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
-    input_error("{}:{}: {}", name_, line_, fmt::format(format, std::forward<Args>(args)...));
+    std::string text = fmt::format(format, std::forward<Args>(args)...);
+    if (at_ == text_.size() && text.find("cut short") == std::string::npos)
+      text += "; the file ends here: it was cut short";
+    input_error("{}:{}: {}", name_, line_, text);
   }
 
   /// The next word; empty at the end of the file.
@@ -284,6 +287,11 @@ class Reader {
       input_error("{}: the nodes lie at heights z from {} to {}; expected a plane", words_.name(), *low,
                   *high);
     Triangulation result(std::move(vertices_), std::move(triangles_), words_.name());
+    for (const auto& [g, list] : lines_)
+      for (const auto& [a, b] : list)
+        if (result.find_edge(a, b) < 0)
+          input_error("{}: boundary '{}': no edge of a triangle joins nodes {} and {}", words_.name(),
+                      name_of(1, g), tags_[static_cast<std::size_t>(a)], tags_[static_cast<std::size_t>(b)]);
     try {
       for (const auto& [g, list] : lines_) result.add_part(name_of(1, g), list);
       for (const auto& [g, list] : points_) result.add_part(name_of(0, g), {}, list);

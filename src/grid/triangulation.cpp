@@ -60,7 +60,8 @@ void Triangulation::turn(std::string_view origin) {
     const int side = orientation(corner(t, 0), corner(t, 1), corner(t, 2));
     if (side == 0) {
       const auto& v = triangle(t);
-      input_error("{}: triangle {} (vertices {}, {}, {}) has no area", origin, t, v[0], v[1], v[2]);
+      input_error("{}: triangle {} (vertices {}, {}, {}) near ({:.6g}, {:.6g}) has no area", origin, t, v[0],
+                  v[1], v[2], centroid(t).x(), centroid(t).y());
     }
     if (side < 0 && clockwise++ == 0) first = t;
   }
@@ -68,8 +69,10 @@ void Triangulation::turn(std::string_view origin) {
     for (auto& v : triangles_) std::swap(v[1], v[2]);
   } else if (clockwise > 0) {
     input_error(
-        "{}: {} of {} triangles are inverted (run clockwise), the first is triangle {} (vertices {}, {}, {})",
-        origin, clockwise, n_triangles(), first, triangle(first)[0], triangle(first)[1], triangle(first)[2]);
+        "{}: {} of {} triangles are inverted (run clockwise), the first is triangle {} (vertices {}, {}, {}) "
+        "near ({:.6g}, {:.6g})",
+        origin, clockwise, n_triangles(), first, triangle(first)[0], triangle(first)[1], triangle(first)[2],
+        centroid(first).x(), centroid(first).y());
   }
 }
 
@@ -85,8 +88,8 @@ void Triangulation::join(std::string_view origin) {
       if (!isnew)
         input_error(
             "{}: triangles {} and {} overlap: both lie on the same side of the edge between vertices {} and "
-            "{}",
-            origin, place->second[0], t, a, b);
+            "{}, ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})",
+            origin, place->second[0], t, a, b, vertex(a).x(), vertex(a).y(), vertex(b).x(), vertex(b).y());
     }
   for (int t = 0; t < n_triangles(); ++t)
     for (int k = 0; k < 3; ++k) {

@@ -12,6 +12,7 @@
 #include "grid/gmsh.h"
 #include "grid/triangulate.h"
 #include "io/case.h"
+#include "io/placement.h"
 #include "io/toml_reader.h"
 
 namespace wisp {
@@ -94,6 +95,7 @@ class Checks {
     basis();
     bodies();
     boundaries();
+    placement();
     loads();
     stabilisation();
     stages();
@@ -304,16 +306,28 @@ class Checks {
     if (!grid_) context_.fail_at(at("type"), "walls need a structured grid; on triangles hold a named part");
     if (!w.displacement.empty() && !w.velocity.empty())
       context_.fail_at(at("velocity"), "give either displacement or velocity");
-    const Block<dim> box = located(context_, place("boundary", i, "shape"),
-                                   [&] { return Wall<dim>(w, context_.file().folder).shape().bounds(); });
-    for (int d = 0; d < dim; ++d)
-      if (!w.motion && !(box.lower[d] <= upper()[d] && box.upper[d] >= lower()[d]))
-        context_.fail_at(
-            place("boundary", i, "shape"),
-            fmt::format("wall \"{}\" reaches from {} to {} m, outside of the grid from {} to {} m", w.label,
-                        text<dim>(box.lower), text<dim>(box.upper), text<dim>(lower()), text<dim>(upper())));
+    located(context_, place("boundary", i, "shape"), [&] {
+      check_in_grid<dim>(w, {lower(), upper()}, context_.file().folder);
+      return true;
+    });
+    walls_.push_back(w);
     if (w.friction > 0.0 && w.kind != WallKind::roller)
       context_.fail_at(at("friction"), "only for kind = \"roller\"");
+  }
+
+  /// No body lies wholly on the wrong side of the walls, or reaches past the triangles.
+  void placement() {
+    const auto& folder = context_.file().folder;
+    if (walls_.empty() && !space_) return;
+    for (std::size_t i = 0; i < case_.bodies.size(); ++i)
+      located(context_, place("body", i, "shape"), [&] {
+        const auto inside = points_inside<dim>(case_.bodies[i], folder);
+        if constexpr (dim == 2)
+          if (space_) check_on_triangles(case_.bodies[i], inside, space_->triangulation());
+        check_beside_walls<dim>(case_.bodies[i], inside, walls_, grid_ ? grid_->shortest_side() : 0.0,
+                                folder);
+        return true;
+      });
   }
 
   void loads() {
@@ -441,6 +455,7 @@ class Checks {
 
   const Case& case_;
   const Context& context_;
+  std::vector<WallOptions> walls_;
   std::optional<StructuredGrid<dim>> grid_;  ///< or
   std::unique_ptr<Space<2>> space_;          ///< a triangulation with its basis
 };

@@ -153,7 +153,7 @@ class Run {
   template <class Analysis>
   void add_checkpoint(Analysis& analysis, bool stage_is_over);
   void add_last_row(Explicit<dim>& analysis);
-  void measure_spectrum(Mass mass, Row<dim>& row);
+  void measure_spectrum(const ExplicitOptions& options, Row<dim>& row);
 
   bool row_due() const {
     return results_->last_row() < model_.step && model_.step % case_.output.history_every == 0;
@@ -181,6 +181,7 @@ class Run {
   void check_balance(Explicit<dim>& analysis, const EnergyRecord& record, double work);
   template <class Analysis>
   [[noreturn]] void stop(Analysis& analysis, const std::string& cause);
+  void keep_start();
   void add_row(std::int64_t step, double time, Row<dim> row);
   void add_state() {
     if (state_step_ == model_.step) return;
@@ -244,7 +245,28 @@ void Run<dim>::stop(Analysis& analysis, const std::string& cause) {
   if (checkpoint_step_ >= 0)
     run_error("{}; the last good state is the checkpoint of step {} at t = {:.6g} s: wisp resume {}", cause,
               checkpoint_step_, checkpoint_time_, folder_.string());
-  run_error("{}; no state but the start is kept: set checkpoint_every in [output]", cause);
+  keep_start();
+  run_error("{}; no state but the start is kept (checkpoint_every in [output] keeps more): wisp resume {}",
+            cause, folder_.string());
+}
+
+/// The start of the run, made anew from the case: steps change the points in place, and a copy of them would
+/// cost every run time and memory.
+template <int dim>
+void Run<dim>::keep_start() {
+  Model<dim> start(model_options(case_));
+  Checkpoint checkpoint;
+  store(start, checkpoint);
+  store_case(case_.file, begun_, checkpoint);
+  checkpoint.set_integer("stage", 0);
+  checkpoint.set_integer("step in stage", 0);
+  checkpoint.set_number("stage start", start.time);
+  checkpoint.set_integer("last row", -1);
+  checkpoint.set_number("energy at the start", balance_.start());
+  checkpoint.set_number("energy given", balance_.start());
+  for (const char* empty : {"first energy", "warm velocity", "warm acceleration"})
+    checkpoint.set(empty, Checkpoint::Doubles{});
+  results_->add_checkpoint(checkpoint);
 }
 
 template <int dim>
@@ -327,19 +349,19 @@ void Run<dim>::add_last_row(Explicit<dim>& analysis) {
   Row<dim> row;
   row.dt = last_dt_;
   if (case_.output.energies) analysis.measure(row.energy);
-  measure_spectrum(analysis.options().mass, row);
+  measure_spectrum(analysis.options(), row);
   row.reactions = model_.reactions;
   row.tracked = tracked_.now(model_);
   add_row(model_.step, model_.time, row);
 }
 
 template <int dim>
-void Run<dim>::measure_spectrum(Mass mass, Row<dim>& row) {
+void Run<dim>::measure_spectrum(const ExplicitOptions& options, Row<dim>& row) {
   const OutputOptions& output = case_.output;
   if (!output.condition_numbers && !output.critical_time_step) return;
   const auto timer = model_.timers.start("condition number, critical time step");
   model_.settle();
-  ExplicitSpectrum<dim> spectrum(model_, mass);
+  ExplicitSpectrum<dim> spectrum(model_, options);
   if (output.condition_numbers) row.condition = spectrum.condition();
   if (output.critical_time_step) row.critical_time_step = spectrum.critical_time_step();
 }
@@ -363,7 +385,7 @@ void Run<dim>::stage(const ExplicitOptions& options) {
     const std::int64_t step = model_.step;
     const bool row_is_due = row_due(), energies = row_is_due && case_.output.energies;
     Row<dim> row;
-    if (row_is_due) row.tracked = tracked_.now(model_), measure_spectrum(options.mass, row);
+    if (row_is_due) row.tracked = tracked_.now(model_), measure_spectrum(options, row);
     row.dt = last_dt_ = analysis.time_step(stage_end());
     try {
       analysis.step(row.dt, energies ? &row.energy : nullptr);

@@ -200,4 +200,64 @@ double greatest_pencil_eigenvalue(const SystemMatrix& k, std::span<const double>
   return solver.eigenvalues().maxCoeff();
 }
 
+double greatest_product_eigenvalue(const LinearMap& k, const LinearMap& b, const InnerProduct& dot,
+                                   std::vector<double> start) {
+  constexpr int most_steps = 400;
+  constexpr double tolerance = 1e-9;
+  std::vector<double> q = std::move(start), before(q.size(), 0.0), bq(q.size()), w(q.size());
+  b(q, bq);
+  double length = std::sqrt(std::max(0.0, dot(q, bq)));
+  std::vector<double> diagonal, beside;
+  double greatest = 0.0;
+  for (int step = 0; step < most_steps && length > 0.0; ++step) {
+    for (std::size_t i = 0; i < q.size(); ++i) q[i] /= length, bq[i] /= length;
+    k(bq, w);
+    diagonal.push_back(dot(w, bq));
+    const double alpha = diagonal.back(), beta = step > 0 ? beside.back() : 0.0;
+    for (std::size_t i = 0; i < q.size(); ++i) w[i] -= alpha * q[i] + beta * before[i];
+    before.swap(q), q.swap(w);
+    b(q, bq);
+    length = std::sqrt(std::max(0.0, dot(q, bq)));
+    const auto n = static_cast<Eigen::Index>(diagonal.size());
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    ritz.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), n),
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), n - 1));
+    greatest = ritz.eigenvalues()[n - 1];
+    // Residual of the Ritz pair: the next coefficient times the last component of its vector.
+    if (length * std::abs(ritz.eigenvectors()(n - 1, n - 1)) <= tolerance * std::abs(greatest))
+      return std::max(greatest, 0.0);
+    beside.push_back(length);
+  }
+  if (length > 0.0) run_error("the greatest eigenvalue of a product of matrices did not converge");
+  return std::max(greatest, 0.0);
+}
+
+double greatest_magnitude(const LinearMap& a, const InnerProduct& dot, std::vector<double> start) {
+  constexpr Eigen::Index most_steps = 200;
+  constexpr double tolerance = 1e-8;
+  std::vector<std::vector<double>> q;
+  std::vector<double> w = std::move(start);
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(most_steps + 1, most_steps);
+  double length = std::sqrt(dot(w, w)), greatest = 0.0;
+  for (Eigen::Index n = 1; n <= most_steps && length > 0.0; ++n) {
+    q.push_back(w);
+    for (double& x : q.back()) x /= length;
+    a(q.back(), w);
+    for (int pass = 0; pass < 2; ++pass)  // twice is enough
+      for (std::size_t j = 0; j < q.size(); ++j) {
+        const double share = dot(q[j], w);
+        h(static_cast<Eigen::Index>(j), n - 1) += share;
+        for (std::size_t i = 0; i < w.size(); ++i) w[i] -= share * q[j][i];
+      }
+    length = std::sqrt(dot(w, w));
+    h(n, n - 1) = length;
+    const Eigen::EigenSolver<Eigen::MatrixXd> ritz(h.topLeftCorner(n, n));
+    Eigen::Index most = 0;
+    greatest = ritz.eigenvalues().cwiseAbs().maxCoeff(&most);
+    if (length * std::abs(ritz.eigenvectors()(n - 1, most)) <= tolerance * greatest) return greatest;
+  }
+  if (length > 0.0) run_error("the greatest eigenvalue of a product of matrices did not converge");
+  return greatest;
+}
+
 }  // namespace wisp

@@ -1,8 +1,10 @@
 // Extreme eigenvalues: condition numbers and critical time steps.
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "linear/system_matrix.h"
 
@@ -48,5 +50,21 @@ double greatest_pencil_eigenvalue(const SystemMatrix& k, const SystemMatrix& m,
 /// The same for a lumped mass: positive diagonal entries of this rank's unknowns (n_owned).
 double greatest_pencil_eigenvalue(const SystemMatrix& k, std::span<const double> lumped,
                                   int largest_dense = largest_dense_spectrum);
+
+/// y from x, with current ghosts, and the inner product over all ranks: matrices that only their products
+/// make known.
+using LinearMap = std::function<void(const std::vector<double>& x, std::vector<double>& y)>;
+using InnerProduct = std::function<double(const std::vector<double>&, const std::vector<double>&)>;
+
+/// Greatest eigenvalue of K B, both symmetric, B positive semi-definite: Lanczos's iteration in the inner
+/// product of B, for products of which no factor can be solved with. `start` must not be zero. Zero if K B
+/// is. Collective.
+/// @throws RunError if the iteration does not converge
+double greatest_product_eigenvalue(const LinearMap& k, const LinearMap& b, const InnerProduct& dot,
+                                   std::vector<double> start);
+
+/// Greatest absolute value of the eigenvalues of any real square matrix, given as a function, by Arnoldi's
+/// iteration without restarts, which keeps one array a step. Otherwise as above.
+double greatest_magnitude(const LinearMap& a, const InnerProduct& dot, std::vector<double> start);
 
 }  // namespace wisp

@@ -42,6 +42,8 @@ class MassEquation {
 
   /// Functions that take part in the solves (n_local).
   std::span<const char> active() const { return active_; }
+  /// Unknowns that no system is solved for (n_local x columns): fixed by a condition, or lumped.
+  std::span<const char> held() const { return held_; }
   /// Drops what the solver keeps between steps.
   void renew() { solver_ = MassSolver(options_); }
 

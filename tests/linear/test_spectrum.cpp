@@ -88,6 +88,37 @@ TEST(Spectrum, greatest_frequency_of_a_chain) {
   }
 }
 
+TEST(Spectrum, of_products_known_by_their_action) {
+  // K B with K a chain's stiffness and B diagonal has the eigenvalues of B^1/2 K B^1/2; and a rotation by 90
+  // degrees, doubled, has +-2i.
+  const int n = 50;
+  Eigen::MatrixXd k = 2.0 * Eigen::MatrixXd::Identity(n, n);
+  for (int i = 0; i + 1 < n; ++i) k(i, i + 1) = k(i + 1, i) = -1.0;
+  Eigen::VectorXd b(n);
+  for (int i = 0; i < n; ++i) b[i] = i % 7 == 3 ? 0.0 : 1.0 + i;
+  const auto dot = [](const std::vector<double>& x, const std::vector<double>& y) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+    return sum;
+  };
+  const auto times = [](const Eigen::MatrixXd& a) {
+    return [a](const std::vector<double>& x, std::vector<double>& y) {
+      y.resize(x.size());
+      Eigen::Map<Eigen::VectorXd>(y.data(), a.rows()) =
+          a * Eigen::Map<const Eigen::VectorXd>(x.data(), a.rows());
+    };
+  };
+  const Eigen::MatrixXd root = b.cwiseSqrt().asDiagonal(), diagonal = b.asDiagonal();
+  const double exact = eigenvalue_extremes(Eigen::MatrixXd(root * k * root)).greatest;
+  const std::vector<double> start(n, 1.0);
+  EXPECT_NEAR(greatest_product_eigenvalue(times(k), times(diagonal), dot, start), exact, 1e-8 * exact);
+  EXPECT_NEAR(greatest_magnitude(times(k * diagonal), dot, start), exact, 1e-7 * exact);
+  Eigen::MatrixXd turn(2, 2);
+  turn << 0.0, -2.0, 2.0, 0.0;
+  EXPECT_NEAR(greatest_magnitude(times(turn), dot, {1.0, 0.3}), 2.0, 1e-12);
+  EXPECT_EQ(greatest_product_eigenvalue(times(0.0 * k), times(diagonal), dot, start), 0.0);
+}
+
 TEST(Spectrum, a_mass_that_is_not_positive_is_an_error) {
   const Chain chain(10);
   std::vector<double> lumped = chain.lumped;

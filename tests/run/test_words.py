@@ -15,6 +15,53 @@ def error_lines(process):
     return [line for line in process.stderr.splitlines() if line.strip()]
 
 
+TRIANGLES = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+4
+1 0 0 0
+2 4 0 0
+3 4 2 0
+4 0 2 0
+$EndNodes
+$Elements
+2
+1 2 2 0 1 1 2 3
+2 2 2 0 1 1 {} {}
+$EndElements
+"""
+
+
+def bad_geometry(program, folder):
+    """Meshes, surfaces and walls that cannot be: one line, status 2, nothing written."""
+    cases = {
+        "overlap": ('type = "gmsh"\nfile = "mesh.msh"', TRIANGLES.format(2, 4), "overlap"),
+        "inverted": ('type = "gmsh"\nfile = "mesh.msh"', TRIANGLES.format(4, 3), "inverted"),
+        "short": ('type = "gmsh"\nfile = "mesh.msh"', TRIANGLES[:100], "cut short"),
+    }
+    lines = "lower = [0.0, 0.0]\nupper = [4.0, 2.0]\ncells = [16, 8]"
+    good = open(write_case(folder, "geometry.toml", stage=STAGE), encoding="utf-8").read()
+    good = good.replace('normal = "y"\nat = 0.25\ndirections = ["x", "y"]',
+                        'type = "wall"\nshape = { type = "plane", point = [0.0, 0.25], normal = [0.0, 1.0] }')
+    texts = {name: (good.replace(lines, grid), mesh, words) for name, (grid, mesh, words) in cases.items()}
+    texts["behind"] = (good.replace("normal = [0.0, 1.0]", "normal = [0.0, -1.0]"), "", "lies wholly behind wall")
+    texts["outside"] = (good.replace("point = [0.0, 0.25]", "point = [0.0, -9.0]"), "", "no part of wall")
+    texts["line"] = (good.replace('type = "plane", point = [0.0, 0.25], normal = [0.0, 1.0]',
+                                  'type = "polyline", vertices = [[0, 0], [1, 0]], solid = "inside"'), "", "closed line")
+    for name, (text, mesh, words) in texts.items():
+        path = os.path.join(folder, f"{name}.toml")
+        for file, content in ((path, text), (os.path.join(folder, "mesh.msh"), mesh)):
+            with open(file, "w", encoding="utf-8") as stream:
+                stream.write(content)
+        out = os.path.join(folder, name)
+        bad = wisp(program, "run", path, "--out", out)
+        lines_said = error_lines(bad)
+        expect(bad.returncode == 2 and len(lines_said) == 1 and words in lines_said[0],
+               f"{name}: {bad.returncode}: {bad.stderr}")
+        expect(not os.path.exists(out), f"{name}: bad input left a folder")
+
+
 def main(program):
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
@@ -31,6 +78,8 @@ def main(program):
             bad = wisp(program, "run", good, "--out", missing, "--set", "body[0].material.density=-1", *ranks)
             expect(bad.returncode == 2 and len(error_lines(bad)) == 1, f"{bad.returncode}: {bad.stderr}")
             expect(not os.path.exists(missing), "bad input left a folder")
+
+        bad_geometry(program, folder)
 
         flies = write_case(folder, "flies.toml", stage=STAGE)
         for ranks in ([], ["--ranks", "2"]):

@@ -1,16 +1,34 @@
-# The unit tests (test_<room>) as one target and one ctest label, so that a sanitizer build can stop there; and in such a
-# build what they need to tell our leaks from those of MPI.
+# The unit tests (test_<room>, and of the verification its references) as one target and one ctest label, so that a
+# sanitizer build can stop there; and in such a build what they need to tell our leaks from those of MPI.
 add_custom_target(unit_tests)
+set(wisp_sanitize_folder ${CMAKE_CURRENT_LIST_DIR})
+function(wisp_unit_test name)
+  add_dependencies(unit_tests test_${name})
+  set_property(TEST ${name} APPEND PROPERTY LABELS unit)
+  if(WISP_SANITIZE)
+    target_sources(test_${name} PRIVATE ${wisp_sanitize_folder}/keep_loaded.c)
+    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT
+      ASAN_OPTIONS=detect_leaks=1
+      UBSAN_OPTIONS=print_stacktrace=1
+      LSAN_OPTIONS=suppressions=${wisp_sanitize_folder}/leaks.txt:print_suppressions=0)
+    if(wisp_slow_${name})
+      list(JOIN wisp_slow_${name} ":" slow)
+      set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT GTEST_FILTER=-${slow})
+    endif()
+  endif()
+endfunction()
+# Left out under the sanitizers, where a step costs a hundred times as much: long runs that measure rates, periods
+# and momenta (half a second or more each in the Release build, which runs them all). The shorter tests of
+# the room run through the same code.
+set(wisp_slow_analysis
+  Vortex.ConvergesUnderRefinement
+  Triangles.MomentumStaysWithGhostAndAngularMomentumToFirstOrder
+  Triangles.TranslationIsExactAndStressFree
+  Triangles.BarVibratesWithTheExactPeriod
+  VibratingBar.HasItsFrequencyAndAmplitudeInEveryExplicitScheme
+  Collision.OfTwoDiscsKeepsTheMomentumAndTurnsThemBack)
 foreach(room IN LISTS WISP_ROOMS)
   if(TARGET test_${room})
-    add_dependencies(unit_tests test_${room})
-    set_property(TEST ${room} APPEND PROPERTY LABELS unit)
-    if(WISP_SANITIZE)
-      target_sources(test_${room} PRIVATE ${CMAKE_CURRENT_LIST_DIR}/keep_loaded.c)
-      set_property(TEST ${room} APPEND PROPERTY ENVIRONMENT
-        ASAN_OPTIONS=detect_leaks=1
-        UBSAN_OPTIONS=print_stacktrace=1
-        LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks.txt:print_suppressions=0)
-    endif()
+    wisp_unit_test(${room})
   endif()
 endforeach()

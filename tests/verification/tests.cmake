@@ -5,3 +5,4 @@ add_executable(test_verification ${CMAKE_CURRENT_LIST_DIR}/references_test.cc
 target_include_directories(test_verification PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(test_verification PRIVATE wisp_options GTest::gtest_main)
 add_test(NAME verification COMMAND test_verification)
+wisp_unit_test(verification)

@@ -122,9 +122,7 @@ class Sweeps {
  public:
   const std::vector<Sample>& of(const Resolution& points, bool full) {
     auto& kept = kept_[points.name];
-    // Figures 9 and 10 show every position of the coarse points; of the others only maxima are printed.
-    const Strides every = full ? Strides{1, 1} : points.name == "coarse" ? Strides{1, 10} : Strides{5, 20};
-    if (kept.empty()) kept = sweep(points, every);
+    if (kept.empty()) kept = sweep(points, full ? Strides{1, 1} : Strides{1, 10});
     return kept;
   }
 

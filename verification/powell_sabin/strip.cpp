@@ -159,7 +159,7 @@ StripRun run_strip(const StripCase& s) {
       run.energy.push_back(kinetic + potential);
       run.kinetic_scale = std::max(run.kinetic_scale, kinetic);
       if (s.with_conditions && run.time.size() % 50 == 1) {
-        const ExplicitSpectrum<2> spectrum(model, s.mass == Mass::lumped ? Mass::lumped : Mass::consistent);
+        const ExplicitSpectrum<2> spectrum(model, options);
         run.condition.push_back(spectrum.condition());
       }
       // A point that has moved by the length of the strip has left the problem, if not yet the grid.
