@@ -55,7 +55,7 @@ TEST(Triangles, SplinesAreHeldAlongOneSideOfACornerThatTurnsInwards) {
   grid.spacing = 0.3;
   o.triangulation = grid;
   o.basis = sides;
-  PolygonShape shape;
+  Polygon shape;
   shape.vertices = grid.outline.vertices;
   BodyOptions body;
   body.label = "L", body.shape = shape, body.material = LinearElastic{1.0, 1000.0, nu};
