@@ -241,7 +241,8 @@ double Implicit<dim>::residual(std::span<const double> u, double dt) {
   double scale = std::sqrt(squared(space.nodes(), action, dim));
   if (newmark_) scale += std::sqrt(squared(space.nodes(), force_, dim)) + inertia_scale_;
   // The first evaluation, before any correction, never ends a step: prescribed motion has yet to be applied.
-  const double relative = r > 0 ? r / std::max(scale, std::numeric_limits<double>::min()) : 0.0;
+  // Where nothing but a prescribed motion acts, there is no scale before that has found its reactions.
+  const double relative = scale > 0 ? r / scale : r > 0 ? 1.0 : 0.0;
   return evaluations_ == 1 ? std::max(relative, 1.0) : relative;
 }
 

@@ -45,9 +45,6 @@ Model<dim>::Model(const ModelOptions& given) : options(given) {
 template <int dim>
 void Model<dim>::sample_on_grid() {
   const bool domains = std::holds_alternative<GimpOptions>(options.basis);
-  if (!domains && !std::holds_alternative<LinearOptions>(options.basis))
-    input_error("basis '{}' needs a triangulation; structured grids have linear and gimp",
-                std::visit([](const auto& o) { return o.name; }, options.basis));
   for (const auto& body : options.bodies)
     if (body.sampling.method == SamplingMethod::random || body.sampling.volumes == PointVolumes::voronoi)
       input_error("body '{}': random points and Voronoi volumes need a triangulation", body.label);
@@ -58,7 +55,7 @@ void Model<dim>::sample_on_grid() {
     const auto& share = samplers.emplace_back(body, grid, options.folder).share();
     cells.insert(cells.end(), share.begin(), share.end());
   }
-  space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), domains);
+  space = std::make_unique<Space<dim>>(grid, BoxPartition<dim>(grid.cells(), cells), options.basis);
   std::int64_t id = 0;
   for (const auto& sampler : samplers) {
     bodies.push_back(sampler.points(space->window().owned_cells(), domains, id));
@@ -292,7 +289,7 @@ bool Model<dim>::rebalance() {
 template <int dim>
 void Model<dim>::make_space(const BoxPartition<dim>& partition) {
   const StructuredGrid<dim> grid = space->grid();
-  space = std::make_unique<Space<dim>>(grid, partition, space->domains());
+  space = std::make_unique<Space<dim>>(grid, partition, options.basis);
   // Walls keep what they carry; conforming conditions find their functions anew.
   for (std::size_t k = 0; k < boundaries.size(); ++k)
     if (const auto* o = std::get_if<ConformingOptions>(&options.boundaries[k]))

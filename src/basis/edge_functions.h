@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "basis/spline_conditions.h"
 #include "core/error.h"
 #include "grid/triangulation.h"
 
@@ -29,46 +30,34 @@ std::vector<int> functions_on_edge(const Basis& basis, int e) {
 }
 
 /// The functions to fix so that a constant motion is prescribed along `edges` and at single `vertices`,
-/// sorted.
+/// sorted. Of splines those of `spline_conditions`.
 ///
-/// Of splines the three functions of a vertex V take part in the motion along an edge through V only by value
-/// and tangential derivative there: two of them, if a side of V's control triangle lies on the edge. Where
-/// two edges with a kink at V are held the whole gradient is, and so all three. Errors (InputError): neither
-/// is the case; a single vertex of splines, whose functions are not nodal.
+/// Errors (InputError): splines at a single vertex, whose functions are not nodal, on edges inside the grid,
+/// or on one edge alone at a corner where no side of the control triangle lies on it.
 template <class Basis>
 std::vector<int> trace_functions(const Basis& basis, const std::vector<int>& edges,
                                  const std::vector<int>& vertices) {
-  const Triangulation& mesh = basis.triangulation();
   std::set<int> held;
-  std::vector<std::vector<Vec<2>>> tangents(static_cast<std::size_t>(mesh.n_vertices()));
-  for (const int e : edges)
-    for (const int v : mesh.edge(e).vertex)
-      tangents[static_cast<std::size_t>(v)].push_back(
-          (mesh.vertex(mesh.edge(e).vertex[1]) - mesh.vertex(mesh.edge(e).vertex[0])).normalized());
-  for (const int e : edges) {
-    const auto functions = functions_on_edge(basis, e);
-    held.insert(functions.begin(), functions.end());
-    if constexpr (Basis::continuity > 0)
-      for (const int v : mesh.edge(e).vertex) {
-        const auto of_vertex =
-            std::count_if(functions.begin(), functions.end(), [&](int i) { return i / 3 == v; });
-        const auto& t = tangents[static_cast<std::size_t>(v)];
-        const bool kink = std::any_of(t.begin(), t.end(), [&](const Vec<2>& u) {
-          return std::abs(u.x() * t[0].y() - u.y() * t[0].x()) > 1e-9;
-        });
-        if (of_vertex > 2 && !kink)
-          input_error(
-              "the splines at ({}, {}) cannot be fixed along one edge alone: the boundary turns there by "
-              "less "
-              "than 60 degrees or inwards, or the edge is no boundary; hold both edges, or use linear "
-              "functions",
-              mesh.vertex(v).x(), mesh.vertex(v).y());
-      }
-  }
   if constexpr (Basis::continuity > 0) {
     if (!vertices.empty()) input_error("splines cannot be held at a single vertex; hold an edge");
+    const auto conditions =
+        spline_conditions(basis, edges, [](int, const Vec<2>&) { return ValueAndGradient(1.0, 0.0, 0.0); });
+    if (!conditions.vertices.empty()) {
+      const Vec<2>& v = basis.triangulation().vertex(conditions.vertices[0].function[0] / 3);
+      input_error(
+          "the splines at ({}, {}) cannot be fixed along one edge alone, because the boundary turns there "
+          "inwards or by less than 10 degrees; hold both edges, or (where it turns inwards) use "
+          "control_triangles = \"corner-sides\" in [basis]",
+          v.x(), v.y());
+    }
+    for (const auto& fixed : conditions.fixed) held.insert(fixed.function);
+  } else {
+    for (const int e : edges) {
+      const auto functions = functions_on_edge(basis, e);
+      held.insert(functions.begin(), functions.end());
+    }
+    held.insert(vertices.begin(), vertices.end());
   }
-  held.insert(vertices.begin(), vertices.end());
   return {held.begin(), held.end()};
 }
 

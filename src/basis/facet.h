@@ -29,11 +29,20 @@ struct HeldEdges {
   }
 };
 
+/// h^(2 p + 1) / ((2 p + 1) (p!)^2), what makes the square of the jump of the derivative of order p a mass
+/// per density (Burman 2010; h^3/3 of Coombs 2023): the integral over a length h of the square of x^p / p!.
+constexpr double jump_moment(int p, double h) {
+  double moment = h;
+  for (int k = 1; k <= p; ++k) moment *= h * h / (k * k);
+  return moment / (2 * p + 1);
+}
+
 /// Gauss points on a facet with the jump of the normal derivative of every function of its two cells:
 /// `weight` (m2, in 2D m) includes the facet's size; jump of u at Gauss point q is sum_k jump[q][k]
 /// u_{function[k]} (1/m each).
 template <int dim>
 struct FacetJumps {
+  static constexpr int order = 1;  ///< of the derivative
   static constexpr int n_functions = dim == 2 ? 6 : 12;
   static constexpr int n_points = dim == 2 ? 2 : 4;
   std::array<int, n_functions> function;

@@ -51,6 +51,24 @@ class KnotVector {
     }
   }
 
+  /// The derivative of order p (1/m^p) of the p + 1 functions of a cell, which is constant there. `p` is the
+  /// vector's degree.
+  template <int p>
+  std::array<double, p + 1> highest_derivative(int cell) const {
+    const auto first = static_cast<std::size_t>(first_[static_cast<std::size_t>(cell)]);
+    std::array<double, p + 1> derivative{};
+    for (std::size_t i = 0; i <= p; ++i) {
+      // Differences of the coefficients of one function give those of its derivatives (de Boor 1972).
+      std::array<double, p + 1> c{};
+      c[i] = 1.0;
+      for (std::size_t k = p, done = 1; k > 0; --k, ++done)
+        for (std::size_t j = p; j >= done; --j)
+          c[j] = static_cast<double>(k) * (c[j] - c[j - 1]) * per_difference_[k][first + j];
+      derivative[i] = c[p];
+    }
+    return derivative;
+  }
+
  private:
   int degree_ = 0;
   std::vector<double> knots_;

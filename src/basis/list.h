@@ -2,6 +2,7 @@
 #pragma once
 #include <variant>
 
+#include "basis/bspline.h"
 #include "basis/gimp.h"
 #include "basis/lagrange_quadratic.h"
 #include "basis/linear.h"
@@ -14,13 +15,13 @@ namespace wisp {
 
 template <int dim>
 struct BasisList {
-  using Type = std::variant<Linear<dim>, Gimp<dim, 3>, Gimp<dim, 5>>;
+  using Type = std::variant<Linear<dim>, Gimp<dim, 3>, Gimp<dim, 5>, BSpline<dim, 2>, BSpline<dim, 3>>;
 };
 template <>
 struct BasisList<2> {
-  using Type = std::variant<Linear<2>, Gimp<2, 3>, Gimp<2, 5>, OnTriangles<LinearTriangle>,
-                            OnTriangles<LagrangeQuadratic>, OnTriangles<PowellSabinQuadratic>,
-                            OnTriangles<PowellSabinCubic>>;
+  using Type = std::variant<Linear<2>, Gimp<2, 3>, Gimp<2, 5>, BSpline<2, 2>, BSpline<2, 3>, BSpline<2, 4>,
+                            OnTriangles<LinearTriangle>, OnTriangles<LagrangeQuadratic>,
+                            OnTriangles<PowellSabinQuadratic>, OnTriangles<PowellSabinCubic>>;
 };
 
 /// The basis of a run in the form its kernels need; visited once per loop over points.

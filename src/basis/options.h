@@ -21,6 +21,22 @@ struct GimpOptions {
   static constexpr auto keys() { return std::tuple{}; }
 };
 
+struct BSplineOptions {
+  int degree = 2;
+
+  static constexpr std::string_view name = "b-spline";
+  static constexpr std::string_view summary =
+      "Tensor products of B-splines on a structured grid: smooth, never negative";
+  static constexpr std::string_view source = "Cox 1972; de Boor 1972; de Koster 2018, section 3.4";
+  static constexpr auto keys() {
+    return std::tuple{key("degree", &BSplineOptions::degree, "-",
+                          "of the pieces, whose derivatives are continuous up to degree - 1; 1 is linear, at "
+                          "most 4 (2D) or 3 (3D)")
+                          .at_least(1)
+                          .at_most(4)};
+  }
+};
+
 struct LagrangeQuadraticOptions {
   static constexpr std::string_view name = "lagrange-quadratic";
   static constexpr std::string_view summary =
@@ -55,7 +71,7 @@ struct PowellSabinCubicOptions {
   }
 };
 
-using AnyBasisOptions = std::variant<LinearOptions, GimpOptions, LagrangeQuadraticOptions, PowellSabinOptions,
-                                     PowellSabinCubicOptions>;
+using AnyBasisOptions = std::variant<LinearOptions, GimpOptions, BSplineOptions, LagrangeQuadraticOptions,
+                                     PowellSabinOptions, PowellSabinCubicOptions>;
 
 }  // namespace wisp

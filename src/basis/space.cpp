@@ -4,6 +4,35 @@
 
 namespace wisp {
 
+template <int dim>
+int Space<dim>::degree_of(const AnyBasisOptions& options) {
+  if (const auto* splines = std::get_if<BSplineOptions>(&options)) return splines->degree;
+  if (!std::holds_alternative<LinearOptions>(options) && !std::holds_alternative<GimpOptions>(options))
+    input_error("basis '{}' needs a triangulation; structured grids have linear, gimp and b-spline",
+                std::visit([](const auto& o) { return o.name; }, options));
+  return 1;
+}
+
+template <int dim>
+void Space<dim>::make_splines() {
+  const NodeNumbering<dim> numbering(*window_);
+  if (degree_ == 2)
+    basis_ = BSpline<dim, 2>(*grid_, numbering);
+  else if (degree_ == 3)
+    basis_ = BSpline<dim, 3>(*grid_, numbering);
+  else if constexpr (dim == 2) {
+    if (degree_ == 4) basis_ = BSpline<dim, 4>(*grid_, numbering);
+  }
+  if (std::visit([](const auto& b) { return b.degree; }, basis_) != degree_)
+    input_error("basis 'b-spline': degree {} is not built in {}D, where the highest is {}", degree_, dim,
+                dim == 2 ? 4 : 3);
+}
+
+template int Space<2>::degree_of(const AnyBasisOptions&);
+template int Space<3>::degree_of(const AnyBasisOptions&);
+template void Space<2>::make_splines();
+template void Space<3>::make_splines();
+
 template <>
 Space<2>::Space(std::shared_ptr<const Triangulation> triangulation, const AnyBasisOptions& options)
     : triangulation_(std::move(triangulation)),
@@ -14,6 +43,10 @@ Space<2>::Space(std::shared_ptr<const Triangulation> triangulation, const AnyBas
     input_error(
         "basis 'gimp' needs a structured grid; triangulations have linear, lagrange-quadratic, "
         "powell-sabin and powell-sabin-cubic");
+  if (std::holds_alternative<BSplineOptions>(options))
+    input_error(
+        "basis 'b-spline' needs a structured grid; the smooth bases of triangulations are powell-sabin and "
+        "powell-sabin-cubic");
   if (std::holds_alternative<LagrangeQuadraticOptions>(options))
     basis_ = OnTriangles(std::make_shared<const LagrangeQuadratic>(mesh));
   else if (const auto* quadratic = std::get_if<PowellSabinOptions>(&options))

@@ -1,5 +1,6 @@
 // What a rank knows of the discretisation: its part of the grid, who owns what, and the basis.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -14,20 +15,28 @@ namespace wisp {
 /// Grid, partition and basis of a run on one rank. Arrays over functions have `n_functions()` entries. Not
 /// copyable: the basis points to the grid.
 ///
-/// On a structured grid functions are the nodes of the rank's window, numbered densely, ghosts and phantoms
-/// included. A triangulation (2D) lies on one rank with all its functions.
+/// On a structured grid functions are numbered densely like the nodes of the rank's window, ghosts and
+/// phantoms included: the functions of cell c have the multi-indices c to c + degree in each direction. Those
+/// of linear functions and of GIMP's are its nodes; of B-splines there are more than nodes, and the last of
+/// them lie where phantoms are. A triangulation (2D) lies on one rank with all its functions.
 template <int dim>
 class Space {
  public:
   Space(const StructuredGrid<dim>& grid, const BoxPartition<dim>& partition, bool domains)
+      : Space(grid, partition, domains ? AnyBasisOptions(GimpOptions{}) : AnyBasisOptions(LinearOptions{})) {}
+  /// A basis on a structured grid. Errors (InputError): one that needs a triangulation; a degree of B-splines
+  /// that is not built.
+  Space(const StructuredGrid<dim>& grid, const BoxPartition<dim>& partition, const AnyBasisOptions& options)
       : grid_(grid),
         partition_(partition),
-        window_(*partition_),
-        nodes_(make_node_halo<dim>(*partition_, *window_)),
+        degree_(degree_of(options)),
+        window_(std::in_place, *partition_, Session::rank(), std::max(degree_, Window<dim>::default_margin)),
+        nodes_(make_node_halo<dim>(*partition_, *window_, degree_)),
         cells_(make_cell_halo<dim>(*partition_, *window_)),
-        domains_(domains),
+        domains_(std::holds_alternative<GimpOptions>(options)),
         basis_(Linear<dim>(*grid_, NodeNumbering<dim>(*window_))) {
-    if (domains) set_width(3);
+    if (domains_) set_width(3);
+    if (!nodal()) make_splines();
   }
   /// A basis on a triangulation. Errors (InputError): one that needs a structured grid, more than one rank.
   Space(std::shared_ptr<const Triangulation> triangulation,
@@ -36,6 +45,15 @@ class Space {
   Space& operator=(const Space&) = delete;
 
   bool structured() const { return !triangulation_; }
+  /// Whether the functions of a structured grid are its nodes', not those of B-splines.
+  bool nodal() const { return structured() && degree_ == 1; }
+  /// Of structured grids: multi-indices of all functions, and of those of a cell.
+  IndexBox<dim> grid_functions() const {
+    return {MultiIndex<dim>::Zero(), grid_->cells() + MultiIndex<dim>::Constant(degree_)};
+  }
+  IndexBox<dim> functions_of_cell(const MultiIndex<dim>& cell) const {
+    return {cell, cell + MultiIndex<dim>::Constant(degree_ + 1)};
+  }
   /// Of structured grids only.
   const StructuredGrid<dim>& grid() const { return *grid_; }
   const BoxPartition<dim>& partition() const { return *partition_; }
@@ -57,9 +75,9 @@ class Space {
     return structured() ? grid_->shortest_side() : triangulation_->shortest_height();
   }
   /// The least extent that a wave crosses in a cell, for time steps, m: the shortest side, or the shortest
-  /// height of a triangle over the degree of its functions.
+  /// height of a triangle, over the degree of the functions.
   double shortest_extent() const {
-    if (structured()) return grid_->shortest_side();
+    if (structured()) return grid_->shortest_side() / degree_;
     return triangulation_->shortest_height() / std::visit([](const auto& b) { return b.degree; }, basis_);
   }
   /// Corners of the box around the grid, m.
@@ -95,10 +113,30 @@ class Space {
               return Vec<2>::Zero();
             },
             basis_);
-    Vec<dim> x;
     const MultiIndex<dim> i = window_->node_multi_index(function);
+    if (!nodal()) {
+      const MultiIndex<dim> last =
+          grid_functions().upper - MultiIndex<dim>::Ones();  // phantoms have no place
+      return visit_splines(
+          [&](const auto& b) { return b.control_point(i.cwiseMax(0).cwiseMin(last).eval()); });
+    }
+    Vec<dim> x;
     for (int d = 0; d < dim; ++d) x[d] = grid_->line(d, i[d]);
     return x;
+  }
+
+  /// f(basis) of B-splines.
+  template <class F>
+  auto visit_splines(F&& f) const {
+    using Result = decltype(f(std::declval<const BSpline<dim, 2>&>()));
+    return std::visit(
+        [&](const auto& b) -> Result {
+          if constexpr (is_bspline<std::decay_t<decltype(b)>>)
+            return f(b);
+          else
+            throw std::logic_error("visit_splines: the basis is no B-spline");
+        },
+        basis_);
   }
 
   /// Whether x lies in the grid, its edge included.
@@ -111,8 +149,13 @@ class Space {
   }
 
  private:
+  /// Of functions on a structured grid.
+  static int degree_of(const AnyBasisOptions& options);
+  void make_splines();
+
   std::optional<StructuredGrid<dim>> grid_;
   std::optional<BoxPartition<dim>> partition_;
+  int degree_ = 0;  // of functions on a structured grid; 0: a triangulation
   std::optional<Window<dim>> window_;
   std::shared_ptr<const Triangulation> triangulation_;
   Halo nodes_, cells_;

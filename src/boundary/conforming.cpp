@@ -59,7 +59,70 @@ Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& 
       hold_triangulation(space);
       return;
     }
-  hold_nodes(space);
+  if (!options.part.empty()) input_error("boundary '{}': part needs a triangulation", label);
+  if (space.nodal())
+    hold_nodes(space);
+  else
+    hold_splines(space);
+}
+
+/// B-splines interpolate where knots are repeated, on the edges of the grid alone: one function a direction
+/// makes up the motion there. Of a part of an edge all are held that do not vanish on it, so that the motion
+/// is exact there and free a few cells further on.
+template <int dim>
+void Conforming<dim>::hold_splines(const Space<dim>& space) {
+  const auto& label = options_.label;
+  const StructuredGrid<dim>& grid = space.grid();
+  IndexBox<dim> held = space.grid_functions();
+  const IndexBox<dim> all = held;
+  const auto hold_edge = [&](int d, double at) {
+    const int line = line_at(grid, d, at, label);
+    if (line != 0 && line != grid.cells(d))
+      input_error(
+          "boundary '{}': B-splines are held on edges of the grid (node: at its corners), and {} = {} "
+          "is none; the edges are at {} and {}",
+          label, "xyz"[d], at, grid.line(d, 0), grid.line(d, grid.cells(d)));
+    if (line == 0)
+      held.upper[d] = 1;
+    else
+      held.lower[d] = held.upper[d] - 1;
+  };
+  const int normal = options_.normal.empty() ? -1 : direction_of(options_.normal, dim, label, "normal");
+  for (int d = 0; d < dim; ++d)
+    if (normal < 0 || normal == d)
+      hold_edge(d, normal < 0 ? options_.node[static_cast<std::size_t>(d)] : options_.at);
+  const double tolerance = 1e-6 * grid.shortest_side();
+  space.visit_splines([&](const auto& basis) {
+    const int degree = std::decay_t<decltype(basis)>::degree;
+    for (int d = 0; d < dim; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      const auto knot = [&](int i) { return basis.knots(d).knots()[static_cast<std::size_t>(i)]; };
+      if (d == normal || normal < 0) {
+        const double at = grid.line(d, held.lower[d] == 0 ? 0 : grid.cells(d));
+        if ((!options_.lower.empty() && at < options_.lower[k] - tolerance) ||
+            (!options_.upper.empty() && at > options_.upper[k] + tolerance))
+          held.upper[d] = held.lower[d];
+        continue;
+      }
+      while (!options_.lower.empty() && held.lower[d] < held.upper[d] &&
+             knot(held.lower[d] + degree + 1) <= options_.lower[k] + tolerance)
+        ++held.lower[d];
+      while (!options_.upper.empty() && held.lower[d] < held.upper[d] &&
+             knot(held.upper[d] - 1) >= options_.upper[k] - tolerance)
+        --held.upper[d];
+    }
+  });
+  if (held.count() == 0)
+    input_error("boundary '{}': no part of the edge lies between lower and upper", label);
+  for (int d = 0; d < dim; ++d) {
+    bool whole = d == normal;
+    for (int e = 0; e < dim; ++e)
+      whole &= e == d || (held.lower[e] == all.lower[e] && held.upper[e] == all.upper[e]);
+    if (whole) edge_[static_cast<std::size_t>(2 * d + (held.lower[d] == 0 ? 0 : 1))] = true;
+  }
+  for_each_in(held, [&](const MultiIndex<dim>& i) {
+    if (space.window().contains_node(i)) functions_.push_back(space.window().node_index(i));
+  });
 }
 
 template <int dim>
@@ -67,7 +130,6 @@ void Conforming<dim>::hold_nodes(const Space<dim>& space) {
   const ConformingOptions& options = options_;
   const auto& label = options.label;
   const StructuredGrid<dim>& grid = space.grid();
-  if (!options.part.empty()) input_error("boundary '{}': part needs a triangulation", label);
   IndexBox<dim> held = space.window().grid_nodes();
   if (!options.normal.empty()) {
     const int d = direction_of(options.normal, dim, label, "normal");

@@ -15,7 +15,8 @@ template <int dim>
 class Conforming {
  public:
   /// Errors (InputError): not one of normal, node and part, no grid line, node or part there, unknown
-  /// directions, both displacement and velocity; on triangulations functions that cannot be fixed one by one.
+  /// directions, both displacement and velocity; B-splines elsewhere than on edges of the grid; on
+  /// triangulations functions that cannot be fixed one by one.
   Conforming(const ConformingOptions& options, const Space<dim>& space);
 
   const std::string& name() const { return options_.label; }
@@ -43,6 +44,7 @@ class Conforming {
 
  private:
   void hold_nodes(const Space<dim>& space);
+  void hold_splines(const Space<dim>& space);
   void hold_triangulation(const Space<2>& space);
 
   ConformingOptions options_;

@@ -66,7 +66,10 @@ AnyBoundary<dim> make_boundary(const AnyBoundaryOptions& options, const Space<di
                                const std::filesystem::path& folder = {}) {
   if (const auto* conforming = std::get_if<ConformingOptions>(&options))
     return Conforming<dim>(*conforming, space);
-  return Wall<dim>(std::get<WallOptions>(options), folder);
+  const auto& wall = std::get<WallOptions>(options);
+  if (space.structured() && !space.nodal())
+    input_error("boundary '{}': walls on structured grids need linear or GIMP functions", wall.label);
+  return Wall<dim>(wall, folder);
 }
 
 template <int dim>

@@ -20,7 +20,7 @@ struct MeshShape {
 
   static constexpr auto keys() {
     return std::tuple{
-        key("file", &MeshShape::file, "", "the .msh file (format 2 or 4, ASCII)").required(),
+        key("file", &MeshShape::file, "", "the .msh file (format 2 or 4)").required(),
         key("surface", &MeshShape::surface, "", "physical group of the triangles (default: all triangles)"),
         key("scale", &MeshShape::scale, "-", "factor on all coordinates").positive()};
   }

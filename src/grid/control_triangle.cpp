@@ -101,7 +101,7 @@ class Search {
   /// The wedge between two lines, b to the left after a, closed by a third side.
   void try_two(const DirectedLine& a, const DirectedLine& b) {
     const Vec<2> apex = meet(a, b), along_a = -a.direction, along_b = b.direction;
-    if (rule_ == ControlTriangleRule::hull_edges) {
+    if (rule_ != ControlTriangleRule::minimum_area) {
       const Vec<2> bisector = (along_a + along_b).normalized();
       const auto farthest = std::max_element(
           hull_.begin(), hull_.end(),

@@ -14,10 +14,13 @@ namespace wisp {
 enum class ControlTriangleRule {
   hull_edges,    ///< two or three sides on edges of the convex hull, a third side across the bisector
   minimum_area,  ///< the triangle of least area
+  corner_sides,  ///< hull edges; at corners that turn inwards two sides on the boundary
 };
 template <>
-inline constexpr auto choices<ControlTriangleRule> = choice_list<ControlTriangleRule>(
-    {{"hull-edges", ControlTriangleRule::hull_edges}, {"minimum-area", ControlTriangleRule::minimum_area}});
+inline constexpr auto choices<ControlTriangleRule> =
+    choice_list<ControlTriangleRule>({{"hull-edges", ControlTriangleRule::hull_edges},
+                                      {"minimum-area", ControlTriangleRule::minimum_area},
+                                      {"corner-sides", ControlTriangleRule::corner_sides}});
 
 /// An oriented line; points on its left are inside.
 struct DirectedLine {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <set>
@@ -17,7 +18,7 @@ namespace wisp {
 
 namespace {
 
-/// Words of a file with the line that they stand in.
+/// Words of a file with the line that they stand in, and the numbers of its binary stretches.
 class Words {
  public:
   explicit Words(const std::filesystem::path& file) : name_(file.string()) {
@@ -64,10 +65,19 @@ class Words {
       fail("expected {}, found '{}'", what, shown(word));
     return value;
   }
-  double real(const char* what) { return number<double>(what); }
-  std::int64_t integer(const char* what) { return number<std::int64_t>(what); }
-  int count(const char* what) {
-    const auto n = integer(what);
+  /// From here on numbers are bytes, after the end of the line if one stands here, or words again.
+  void binary(bool bytes) {
+    if (bytes && at_ < text_.size() && text_[at_] == '\n') pass();
+    binary_ = bytes;
+  }
+  double real(const char* what) { return binary_ ? bytes<double>(what) : number<double>(what); }
+  /// @param size  of the number where numbers are bytes: 4 or 8
+  std::int64_t integer(const char* what, int size = 4) {
+    if (!binary_) return number<std::int64_t>(what);
+    return size == 4 ? bytes<std::int32_t>(what) : bytes<std::int64_t>(what);
+  }
+  int count(const char* what, int size = 4) {
+    const auto n = integer(what, size);
     if (n < 0 || n > 2000000000) fail("expected {}, found {}", what, n);
     return static_cast<int>(n);
   }
@@ -80,13 +90,26 @@ class Words {
     if (found != word) fail("expected {}, found '{}'", word, shown(found));
   }
   void skip_section(const std::string& name) {
-    for (std::string_view word = next(); word != "$End" + name; word = next())
-      if (word.empty()) fail("the file ends before $End{}: it was cut short", name);
+    const std::string end = "\n$End" + name;
+    const std::size_t found = text_.find(end, at_);
+    if (found == std::string::npos)
+      at_ = text_.size(), fail("the file ends before $End{}: it was cut short", name);
+    while (at_ < found + end.size()) pass();
   }
 
  private:
   void pass() { line_ += text_[at_++] == '\n'; }
 
+  template <class T>
+  T bytes(const char* what) {
+    if (text_.size() - at_ < sizeof(T)) at_ = text_.size(), fail("the file ends where {} is expected", what);
+    T value;
+    std::memcpy(&value, text_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+
+  bool binary_ = false;
   std::string name_, text_;
   std::size_t at_ = 0;
   int line_ = 1;
@@ -116,6 +139,7 @@ class Reader {
         words_.skip_section(section);
         continue;
       }
+      words_.binary(false);
       words_.expect("$End" + section);
     }
     if (!nodes) input_error("{}: no section $Nodes", words_.name());
@@ -131,9 +155,17 @@ class Reader {
     if (!((version_ >= 2.0 && version_ < 3.0) || (version_ >= 4.0 && version_ < 5.0)))
       words_.fail("Gmsh format {} is not known; expected 2 or 4 (in Gmsh: Mesh.MshFileVersion = 4.1)",
                   version_);
-    if (words_.integer("0 (ASCII) or 1 (binary)") != 0)
-      words_.fail("the file is binary; expected ASCII (in Gmsh: Mesh.Binary = 0)");
-    words_.integer("the size of a number");
+    binary_ = words_.integer("0 (ASCII) or 1 (binary)") != 0;
+    if (binary_ && version_ >= 4.0 && version_ < 4.1)
+      words_.fail("binary files of format 4.0 are not read (in Gmsh: Mesh.MshFileVersion = 4.1)");
+    if (words_.integer("the size of a number") != 8 && binary_)
+      words_.fail("expected numbers of 8 bytes in a binary file");
+    if (binary_) {
+      words_.binary(true);
+      if (words_.integer("1") != 1)
+        words_.fail("the numbers of this binary file have the other order of bytes");
+      words_.binary(false);
+    }
     words_.expect("$EndMeshFormat");
   }
 
@@ -149,18 +181,19 @@ class Reader {
   }
 
   void entities() {
+    words_.binary(binary_);
     std::array<int, 4> counts{};
-    for (int& c : counts) c = words_.count("a number of entities");
+    for (int& c : counts) c = words_.count("a number of entities", 8);
     for (int dimension = 0; dimension < 4; ++dimension)
       for (int i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
         const auto entity = words_.integer("an entity");
         words_.skip(dimension == 0 && version_ >= 4.1 ? 3 : 6, "a coordinate");
-        const int groups = words_.count("a number of physical groups");
+        const int groups = words_.count("a number of physical groups", 8);
         for (int g = 0; g < groups; ++g)
           groups_[{dimension, entity}].push_back(
               static_cast<int>(std::abs(words_.integer("a physical group"))));
         if (dimension == 0) continue;
-        const int bounds = words_.count("a number of bounding entities");
+        const int bounds = words_.count("a number of bounding entities", 8);
         for (int b = 0; b < bounds; ++b) words_.integer("a bounding entity");
       }
   }
@@ -177,22 +210,24 @@ class Reader {
 
   void plain_nodes() {
     const int n = words_.count("a number of nodes");
+    words_.binary(binary_);
     for (int i = 0; i < n; ++i) add_node(words_.integer("a node"));
   }
 
   void node_blocks() {
-    const int blocks = words_.count("a number of blocks");
-    words_.count("a number of nodes");
-    if (version_ >= 4.1) words_.integer("the least node"), words_.integer("the greatest node");
+    words_.binary(binary_);
+    const int blocks = words_.count("a number of blocks", 8);
+    words_.count("a number of nodes", 8);
+    if (version_ >= 4.1) words_.integer("the least node", 8), words_.integer("the greatest node", 8);
     std::vector<std::int64_t> tags;
     for (int b = 0; b < blocks; ++b) {
       words_.integer("an entity"), words_.integer("an entity");
       if (words_.integer("0 or 1") != 0)
         words_.fail("parametric nodes are not read (in Gmsh: Mesh.SaveParametric = 0)");
-      const int n = words_.count("a number of nodes");
+      const int n = words_.count("a number of nodes", 8);
       if (version_ >= 4.1) {
         tags.clear();
-        for (int i = 0; i < n; ++i) tags.push_back(words_.integer("a node"));
+        for (int i = 0; i < n; ++i) tags.push_back(words_.integer("a node", 8));
         for (const auto tag : tags) add_node(tag);
       } else {
         for (int i = 0; i < n; ++i) add_node(words_.integer("a node"));
@@ -201,7 +236,7 @@ class Reader {
   }
 
   int node_of_element() {
-    const auto tag = words_.integer("a node");
+    const auto tag = words_.integer("a node", version_ >= 4.0 ? 8 : 4);
     const auto found = index_.find(tag);
     if (found == index_.end()) words_.fail("an element names node {}, which is not listed", tag);
     return found->second;
@@ -233,9 +268,17 @@ class Reader {
 
   void plain_elements() {
     const int n = words_.count("a number of elements");
-    for (int i = 0; i < n; ++i) {
+    words_.binary(binary_);
+    int type = 0, tags = 0;
+    for (int i = 0, left = 0; i < n; ++i, --left) {
+      // Binary files say type and tags once for some elements that follow.
+      if (binary_ && left == 0) {
+        type = words_.count("a type"), left = words_.count("a number of elements");
+        tags = words_.count("a number of tags");
+        if (left == 0) words_.fail("a block of no elements");
+      }
       words_.integer("an element");
-      const int type = words_.count("a type"), tags = words_.count("a number of tags");
+      if (!binary_) type = words_.count("a type"), tags = words_.count("a number of tags");
       std::vector<int> groups;
       for (int k = 0; k < tags; ++k) {
         const auto tag = words_.integer("a tag");
@@ -246,17 +289,18 @@ class Reader {
   }
 
   void element_blocks() {
-    const int blocks = words_.count("a number of blocks");
-    words_.count("a number of elements");
-    if (version_ >= 4.1) words_.integer("the least element"), words_.integer("the greatest element");
+    words_.binary(binary_);
+    const int blocks = words_.count("a number of blocks", 8);
+    words_.count("a number of elements", 8);
+    if (version_ >= 4.1) words_.integer("the least element", 8), words_.integer("the greatest element", 8);
     for (int b = 0; b < blocks; ++b) {
       auto dimension = words_.integer("a dimension"), entity = words_.integer("an entity");
       if (version_ < 4.1) std::swap(dimension, entity);
-      const int type = words_.count("a type"), n = words_.count("a number of elements");
+      const int type = words_.count("a type"), n = words_.count("a number of elements", 8);
       const auto found = groups_.find({static_cast<int>(dimension), entity});
       const std::vector<int> groups = found == groups_.end() ? std::vector<int>() : found->second;
       for (int i = 0; i < n; ++i) {
-        words_.integer("an element");
+        words_.integer("an element", 8);
         element(type, groups);
       }
     }
@@ -304,6 +348,7 @@ class Reader {
 
   Words words_;
   double scale_, version_ = 0.0;
+  bool binary_ = false;
   std::map<Group, std::string> names_;
   std::map<std::pair<int, std::int64_t>, std::vector<int>> groups_;  // of the entities of format 4
   std::unordered_map<std::int64_t, int> index_;

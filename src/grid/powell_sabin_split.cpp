@@ -1,5 +1,7 @@
 #include "grid/powell_sabin_split.h"
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "core/error.h"
@@ -55,11 +57,23 @@ bool boundary_lines(const Triangulation& triangulation, int v, std::array<Direct
   return n_edges == 2;
 }
 
+/// At a corner V that turns inwards: sides from V along the two boundary edges, continued into the inside,
+/// and a third beyond all points that lie between them.
+ControlTriangle inward_triangle(const std::vector<Vec<2>>& points, const std::array<DirectedLine, 2>& lines) {
+  const Vec<2>& v = lines[0].point;
+  Mat<2> sides;
+  sides.col(0) = lines[1].direction, sides.col(1) = -lines[0].direction;
+  const Mat<2> shares = sides.inverse();
+  double size = 0.0;
+  for (const auto& p : points) size = std::max(size, (shares * (p - v)).sum());
+  return {v, Vec<2>(v + size * sides.col(0)), Vec<2>(v + size * sides.col(1))};
+}
+
 }  // namespace
 
 std::vector<ControlTriangle> control_triangles(const PowellSabinSplit& split, int degree,
                                                const ControlTriangleOptions& options) {
-  constexpr double straight = 1e-9, sharp = 0.5 + 1e-9;  // cosine of a turn by 60 degrees: 120 inside
+  constexpr double straight = 1e-9, blunt = 0.98480775301220806;  // cosine of a turn by 10 degrees
   const auto& triangulation = split.triangulation();
   std::vector<ControlTriangle> all;
   std::vector<Vec<2>> points;
@@ -81,8 +95,10 @@ std::vector<ControlTriangle> control_triangles(const PowellSabinSplit& split, in
       const double turn = in[0] * out[1] - in[1] * out[0], along = in.dot(out);
       if (std::abs(turn) < straight && along > 0.0)
         search = find_control_triangle(points, options.rule, std::span(lines).first(1));
-      else if (turn > 0.0 && along <= sharp)
+      else if (turn > 0.0 && along <= blunt)
         search = find_control_triangle(points, options.rule, lines);
+      else if (turn < 0.0 && along <= blunt && options.rule == ControlTriangleRule::corner_sides)
+        search = {true, inward_triangle(points, lines)};
     }
     if (!search.found) search = find_control_triangle(points, options.rule);
     if (!search.found)

@@ -84,14 +84,17 @@ class PowellSabinSplit {
 /// Which vertices at the boundary get a control triangle with sides on the boundary.
 struct ControlTriangleOptions {
   ControlTriangleRule rule = ControlTriangleRule::hull_edges;
-  /// One side on a straight boundary, two on the edges of a convex corner of at most 120 degrees, so that
-  /// essential conditions fix single functions. Elsewhere (blunt and re-entrant corners) and without it the
-  /// conditions are equations among a vertex' three functions.
+  /// One side on a straight boundary, two on the edges of a convex corner of at most 170 degrees, so that
+  /// essential conditions fix single functions. Elsewhere (corners that turn inwards or hardly) and without
+  /// it the conditions are equations among a vertex' three functions; by the rule `corner_sides` corners that
+  /// turn inwards by at least 10 degrees have two sides on their edges too. No triangle of that kind holds
+  /// all Powell-Sabin points, so that some functions are negative in places.
   bool on_boundary = true;
 };
 
 /// Control triangles of all vertices for splines of `degree`: they contain the vertex V and V + (X -
-/// V)/degree for the split points X around it (de Koster 2018, section 3.5.2 and appendix A.3).
+/// V)/degree for the split points X around it (de Koster 2018, section 3.5.2 and appendix A.3), but for
+/// `corner_sides`.
 std::vector<ControlTriangle> control_triangles(const PowellSabinSplit& split, int degree,
                                                const ControlTriangleOptions& options = {});
 

@@ -83,7 +83,7 @@ struct GmshOptions {
 
   static constexpr std::string_view name = "gmsh";
   static constexpr std::string_view summary =
-      "Triangles of a Gmsh file (.msh 2 or 4, ASCII; 2D); its physical groups name boundaries";
+      "Triangles of a Gmsh file (.msh 2 or 4; 2D); its physical groups name boundaries";
   static constexpr std::string_view source = "";
   static constexpr auto keys() {
     using O = GmshOptions;

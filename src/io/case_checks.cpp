@@ -155,9 +155,13 @@ class Checks {
   void basis() {
     const bool structured = std::holds_alternative<LinearOptions>(case_.basis) ||
                             std::holds_alternative<GimpOptions>(case_.basis);
-    if (grid_ && !structured)
-      context_.fail_at("basis.type",
-                       "this basis needs a grid of triangles; structured grids have linear and gimp");
+    const auto* const splines = std::get_if<BSplineOptions>(&case_.basis);
+    if (grid_ && !structured && !splines)
+      context_.fail_at(
+          "basis.type",
+          "this basis needs a grid of triangles; structured grids have linear, gimp and b-spline");
+    if (dim == 3 && splines && splines->degree > 3)
+      context_.fail_at("basis.degree", fmt::format("expected at most 3 in 3D, found {}", splines->degree));
   }
 
   void bodies() {

@@ -136,11 +136,13 @@ std::vector<Window<dim>> windows_of_all(const BoxPartition<dim>& partition, int 
 }  // namespace
 
 template <int dim>
-Halo make_node_halo(const BoxPartition<dim>& partition, const Window<dim>& window) {
+Halo make_node_halo(const BoxPartition<dim>& partition, const Window<dim>& window, int degree) {
+  const IndexBox<dim> all{MultiIndex<dim>::Zero(),
+                          partition.n_cells() + MultiIndex<dim>::Constant(degree).eval()};
   const std::vector<Window<dim>> windows = windows_of_all(partition, window.margin());
   std::vector<int> ranks, slots;
   for_each_in(window.nodes(), [&](const MultiIndex<dim>& node) {
-    const int owner = window.node_in_grid(node) ? partition.owner_of_node(node) : -1;
+    const int owner = all.contains(node) ? partition.owner_of_node(node) : -1;
     ranks.push_back(owner);
     slots.push_back(owner < 0 ? -1 : windows[static_cast<std::size_t>(owner)].node_index(node));
   });
@@ -159,9 +161,9 @@ Halo make_cell_halo(const BoxPartition<dim>& partition, const Window<dim>& windo
   return Halo(ranks, slots);
 }
 
-template Halo make_node_halo(const BoxPartition<1>&, const Window<1>&);
-template Halo make_node_halo(const BoxPartition<2>&, const Window<2>&);
-template Halo make_node_halo(const BoxPartition<3>&, const Window<3>&);
+template Halo make_node_halo(const BoxPartition<1>&, const Window<1>&, int);
+template Halo make_node_halo(const BoxPartition<2>&, const Window<2>&, int);
+template Halo make_node_halo(const BoxPartition<3>&, const Window<3>&, int);
 template Halo make_cell_halo(const BoxPartition<1>&, const Window<1>&);
 template Halo make_cell_halo(const BoxPartition<2>&, const Window<2>&);
 template Halo make_cell_halo(const BoxPartition<3>&, const Window<3>&);

@@ -62,8 +62,11 @@ class Halo {
 
 /// The halo of the nodes, or of the cells, of this rank's window (which must be that of `partition` for this
 /// rank). Owners' numbers follow from their boxes, so only PETSc's own set-up communicates. Collective.
+/// @param degree   of `make_node_halo`: functions of that degree are numbered like nodes, degree more than
+///                 cells in each direction; at most the margin of the window
 template <int dim>
-[[nodiscard]] Halo make_node_halo(const BoxPartition<dim>& partition, const Window<dim>& window);
+[[nodiscard]] Halo make_node_halo(const BoxPartition<dim>& partition, const Window<dim>& window,
+                                  int degree = 1);
 template <int dim>
 [[nodiscard]] Halo make_cell_halo(const BoxPartition<dim>& partition, const Window<dim>& window);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "basis/bspline_jumps.h"
 #include "core/error.h"
 #include "stabilise/triangle_ghost.h"
 
@@ -86,6 +87,21 @@ double ghost_factor(const GhostOptions& options, GhostMatrix kind, const GhostFa
   return kind == GhostMatrix::mass ? gamma * facet.density : gamma * facet.p_wave_modulus / h2;
 }
 
+namespace {
+
+/// Calls f(facet, its jumps) on structured grids.
+template <int dim, class F>
+void for_each_jumps(const Space<dim>& space, const std::vector<GhostFacet>& facets, F&& f) {
+  if (space.nodal())
+    for (const auto& facet : facets) f(facet, facet_jumps<dim>(space, facet));
+  else
+    space.visit_splines([&](const auto& basis) {
+      for (const auto& facet : facets) f(facet, bspline_jumps(space, basis, facet));
+    });
+}
+
+}  // namespace
+
 template <int dim>
 void add_ghost_pattern(const Space<dim>& space, const std::vector<GhostFacet>& facets, BlockMatrix& matrix) {
   if constexpr (dim == 2)
@@ -93,7 +109,8 @@ void add_ghost_pattern(const Space<dim>& space, const std::vector<GhostFacet>& f
       add_triangle_ghost_pattern(space, facets, matrix);
       return;
     }
-  for (const auto& facet : facets) matrix.add_element(facet_jumps<dim>(space, facet).function);
+  for_each_jumps(space, facets,
+                 [&](const GhostFacet&, const auto& jumps) { matrix.add_element(jumps.function); });
 }
 
 template <int dim>
@@ -104,18 +121,18 @@ void add_ghost(const Space<dim>& space, const std::vector<GhostFacet>& facets, c
       add_triangle_ghost(space, facets, options, kind, matrix);
       return;
     }
-  constexpr int n = FacetJumps<dim>::n_functions;
-  for (const auto& facet : facets) {
-    const auto jumps = facet_jumps<dim>(space, facet);
+  for_each_jumps(space, facets, [&](const GhostFacet& facet, const auto& jumps) {
+    using Jumps = std::decay_t<decltype(jumps)>;
+    constexpr std::size_t n = Jumps::n_functions;
     const double h = jumps.normal_extent;
-    const double factor = ghost_factor(options, kind, facet, h) * h * h * h / 3.0;
-    std::array<double, static_cast<std::size_t>(n) * n> dense{};
+    const double factor = ghost_factor(options, kind, facet, h) * jump_moment(Jumps::order, h);
+    std::array<double, n * n> dense{};
     for (std::size_t q = 0; q < jumps.weight.size(); ++q)
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
           dense[i * n + j] += factor * jumps.weight[q] * jumps.jump[q][i] * jumps.jump[q][j];
     matrix.add_scalar(jumps.function, dense.data());
-  }
+  });
 }
 
 template std::vector<GhostFacet> ghost_facets<2>(const Space<2>&, const ActiveCells&,

@@ -41,7 +41,8 @@ template <int dim>
 void add_ghost_pattern(const Space<dim>& space, const std::vector<GhostFacet>& facets, BlockMatrix& matrix);
 
 /// Adds sum over facets of factor J_G, J_G = (h_n^3/3) integral [[d_n phi_i]] [[d_n phi_j]] (x) I (Coombs
-/// 2023, eq. 18-24, 27).
+/// 2023, eq. 18-24, 27); of B-splines of degree p with the derivative of order p, the only one that jumps,
+/// and `jump_moment` for h_n^3/3.
 template <int dim>
 void add_ghost(const Space<dim>& space, const std::vector<GhostFacet>& facets, const GhostOptions& options,
                GhostMatrix kind, BlockMatrix& matrix);

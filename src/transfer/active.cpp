@@ -52,9 +52,9 @@ std::vector<char> active_functions(const Space<dim>& space, const ActiveCells& a
   const auto& window = space.window();
   // A ghost function may belong to an active cell outside the window, so owners are asked.
   std::vector<int> flags(static_cast<std::size_t>(window.n_nodes()), 0);
-  for_each_in(window.cells(), [&](const MultiIndex<dim>& c) {
+  for_each_in(window.owned_cells(), [&](const MultiIndex<dim>& c) {
     if (active.bits[static_cast<std::size_t>(window.cell_index(c))] == 0) return;
-    for_each_in(IndexBox<dim>{c, c + MultiIndex<dim>::Constant(2)},
+    for_each_in(space.functions_of_cell(c),
                 [&](const MultiIndex<dim>& i) { flags[static_cast<std::size_t>(window.node_index(i))] = 1; });
   });
   space.nodes().bit_or(flags.data());

@@ -1,5 +1,10 @@
 #include "transfer/implicit_transfer.h"
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
 #include <Eigen/LU>
 
 #include "tensor/spectral.h"
@@ -134,6 +139,24 @@ void add_group_stiffness(const StoredStencils<dim>& stencils, const Group& group
   blocks.finish(flush);
 }
 
+/// Calls f(std::integral_constant<int, n>) for every number n of functions that stencils of the bases have.
+template <int dim, class F>
+void for_each_size(F&& f) {
+  const auto all = [&]<class... Basis>(const std::variant<Basis...>*) {
+    constexpr int n_bases = sizeof...(Basis);
+    static constexpr std::array<int, n_bases> size{Basis::Stencil::max_functions...};
+    [&]<int... k>(std::integer_sequence<int, k...>) {
+      const auto once = [&]<int i>(std::integral_constant<int, i>) {
+        constexpr auto here = size.begin() + i;
+        if constexpr (std::find(size.begin(), here, *here) == here) f(std::integral_constant<int, *here>());
+      };
+      (once(std::integral_constant<int, k>()), ...);
+    }
+    (std::make_integer_sequence<int, n_bases>());
+  };
+  all(static_cast<const AnyBasis<dim>*>(nullptr));
+}
+
 }  // namespace
 
 template <int dim>
@@ -141,19 +164,13 @@ void add_stiffness(const StoredStencils<dim>& stencils, const Body<dim>& body, s
                    double dt, BlockMatrix& stiffness) {
   std::visit(
       [&](const auto& group) {
-        const auto add = [&]<int n>(std::integral_constant<int, n>) {
-          if (stencils.n == n)
-            add_group_stiffness<dim, n>(stencils, group, body.points.volume, u.data(), dt, stiffness);
-        };
-        // Every number of functions that a stencil of this dimension can have.
-        if constexpr (dim == 2) {
-          add(std::integral_constant<int, 3>()), add(std::integral_constant<int, 4>());
-          add(std::integral_constant<int, 6>()), add(std::integral_constant<int, 9>());
-          add(std::integral_constant<int, 21>()), add(std::integral_constant<int, 25>());
-        } else {
-          add(std::integral_constant<int, 8>()), add(std::integral_constant<int, 27>());
-          add(std::integral_constant<int, 125>());
-        }
+        bool done = false;
+        for_each_size<dim>([&]<int n>(std::integral_constant<int, n>) {
+          if (stencils.n != n) return;
+          add_group_stiffness<dim, n>(stencils, group, body.points.volume, u.data(), dt, stiffness);
+          done = true;
+        });
+        if (!done) throw std::logic_error("add_stiffness: stencils of a size that no basis has");
       },
       body.material);
 }

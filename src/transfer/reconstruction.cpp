@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/quadrature.h"
 #include "transfer/explicit_transfer.h"
 
 namespace wisp {
@@ -43,21 +44,23 @@ void gauss_points(const Basis& basis, int t, std::vector<GaussPoint<2>>& list) {
   }
 }
 
-/// Two points a direction of a cell of a structured grid.
+/// Points of a cell of a structured grid that are exact for linear stress times gradients of functions of a
+/// degree.
 template <int dim>
-void gauss_points(const StructuredGrid<dim>& grid, const MultiIndex<dim>& cell,
+void gauss_points(const StructuredGrid<dim>& grid, const MultiIndex<dim>& cell, const IntervalRule& rule,
                   std::vector<GaussPoint<dim>>& list) {
-  const double root = 1.0 / std::sqrt(3.0);
   list.clear();
-  for (int k = 0; k < (1 << dim); ++k) {
+  const auto n = static_cast<int>(rule.place.size());
+  const MultiIndex<dim> points = MultiIndex<dim>::Constant(n);
+  for_each_in(IndexBox<dim>{MultiIndex<dim>::Zero(), points}, [&](const MultiIndex<dim>& k) {
     GaussPoint<dim> g{Vec<dim>::Zero(), 1.0};
     for (int d = 0; d < dim; ++d) {
       const double h = grid.spacing(d, cell[d]);
-      g.x[d] = grid.line(d, cell[d]) + 0.5 * h * (1.0 + ((k >> d) & 1 ? root : -root));
-      g.weight *= 0.5 * h;
+      g.x[d] = grid.line(d, cell[d]) + h * rule.place[at(k[d])];
+      g.weight *= h * rule.weight[at(k[d])];
     }
     list.push_back(g);
-  }
+  });
 }
 
 /// Bits of bodies that all cells around a cell's vertices share (`every`) and that any of them has (`any`).
@@ -190,9 +193,11 @@ void for_each_cell(const Space<dim>& space, const Basis& basis, const std::vecto
     for (int t = 0; t < space.n_cells(); ++t)
       if (flags[at(t)]) gauss_points(basis.basis(), t, gauss), f(t, gauss);
   } else {
+    // Stress of degree 1 and functions of degree p: exact to degree p + 1.
+    const IntervalRule rule = gauss_legendre((Basis::degree + 3) / 2);
     for_each_in(space.window().owned_cells(), [&](const MultiIndex<dim>& c) {
       const int index = space.window().cell_index(c);
-      if (flags[at(index)]) gauss_points<dim>(space.grid(), c, gauss), f(index, gauss);
+      if (flags[at(index)]) gauss_points<dim>(space.grid(), c, rule, gauss), f(index, gauss);
     });
   }
 }

@@ -83,6 +83,20 @@ TEST(Allocations, AreCounted) {
   EXPECT_EQ(allocations, 2) << plain.size() + aligned.size();
 }
 
+TEST(Allocations, NoneInExplicitStepsWithBSplines) {
+  BSplineOptions cubic;
+  cubic.degree = 3;
+  auto plane = busy_block<2>(false, Hencky{1000.0, 1e4, 0.3});
+  auto space = busy_block<3>(false, Hencky{1000.0, 1e4, 0.3});
+  plane.basis = cubic, space.basis = BSplineOptions{};
+  for (const StressUpdate scheme : all_schemes) {
+    int quiet = 0;
+    EXPECT_EQ(allocations_of<2>(plane, scheme, VelocityUpdate::apic, quiet), 0);
+    EXPECT_EQ(allocations_of<3>(space, scheme, VelocityUpdate::flip, quiet), 0);
+    EXPECT_GT(quiet, 60);
+  }
+}
+
 TEST(Allocations, NoneInExplicitSteps) {
   for (const bool gimp : {false, true})
     for (const StressUpdate scheme : all_schemes)

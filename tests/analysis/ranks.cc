@@ -118,11 +118,18 @@ class Comparison {
   bool failed_ = false;
 };
 
+AnyBasisOptions splines(int degree) {
+  BSplineOptions basis;
+  basis.degree = degree;
+  return basis;
+}
+
 /// Two blocks that fly through the middle of the grid, where ranks meet, and collide.
 template <int dim>
-ModelOptions collision(bool gimp) {
+ModelOptions collision(const AnyBasisOptions& basis) {
   auto o = on_grid<dim>(Vec<dim>::Constant(-1.0), Vec<dim>::Constant(1.0),
-                        MultiIndex<dim>::Constant(dim == 2 ? 16 : 8), gimp);
+                        MultiIndex<dim>::Constant(dim == 2 ? 16 : 8), false);
+  o.basis = basis;
   for (const double side : {-1.0, 1.0}) {
     const Vec<dim> centre = Vec<dim>::Constant(0.32 * side);
     auto& body = add_box<dim>(o, centre - Vec<dim>::Constant(0.25), centre + Vec<dim>::Constant(0.25),
@@ -153,9 +160,10 @@ void explicit_case(Comparison& comparison, const std::string& name, ModelOptions
 }
 
 template <int dim>
-void static_case(Comparison& comparison, const std::string& name, bool gimp, bool ghost) {
+void static_case(Comparison& comparison, const std::string& name, const AnyBasisOptions& basis, bool ghost) {
   auto o =
-      on_grid<dim>(Vec<dim>::Constant(-0.75), Vec<dim>::Constant(1.25), MultiIndex<dim>::Constant(8), gimp);
+      on_grid<dim>(Vec<dim>::Constant(-0.75), Vec<dim>::Constant(1.25), MultiIndex<dim>::Constant(8), false);
+  o.basis = basis;
   Vec<dim> lower = Vec<dim>::Constant(-0.25), upper = Vec<dim>::Constant(0.25);
   lower[0] = -0.75, upper[0] = 0.75;
   add_box<dim>(o, lower, upper, Hencky{1000.0, 1e6, 0.3});
@@ -253,7 +261,7 @@ void wall_case(Comparison& comparison, const std::string& name, bool gimp, bool 
 }
 
 void leaving(Comparison& comparison) {
-  auto o = collision<2>(true);
+  auto o = collision<2>(GimpOptions{});
   o.grid.leaving = Leaving::remove;
   for (auto& body : o.bodies) body.velocity[1] = 3.0;
   Model<2> model(o);
@@ -279,20 +287,29 @@ void leaving(Comparison& comparison) {
 bool all_cases(const std::string& file) {
   Comparison comparison(file);
   using enum MassKind;
-  explicit_case<2>(comparison, "lumped", collision<2>(false), lumped, StressUpdate::usl,
+  explicit_case<2>(comparison, "lumped", collision<2>(LinearOptions{}), lumped, StressUpdate::usl,
                    VelocityUpdate::flip);
-  explicit_case<2>(comparison, "lumped-gimp-usf", collision<2>(true), lumped, StressUpdate::usf,
+  explicit_case<2>(comparison, "lumped-gimp-usf", collision<2>(GimpOptions{}), lumped, StressUpdate::usf,
                    VelocityUpdate::flip);
-  explicit_case<2>(comparison, "lumped-gimp-apic", collision<2>(true), lumped, StressUpdate::musl,
+  explicit_case<2>(comparison, "lumped-gimp-apic", collision<2>(GimpOptions{}), lumped, StressUpdate::musl,
                    VelocityUpdate::apic);
-  explicit_case<2>(comparison, "ghost", collision<2>(true), ghost, StressUpdate::usl, VelocityUpdate::flip);
-  explicit_case<3>(comparison, "lumped-3d", collision<3>(true), lumped, StressUpdate::usl,
+  explicit_case<2>(comparison, "ghost", collision<2>(GimpOptions{}), ghost, StressUpdate::usl,
                    VelocityUpdate::flip);
-  explicit_case<3>(comparison, "ghost-3d", collision<3>(false), ghost, StressUpdate::usl,
+  explicit_case<3>(comparison, "lumped-3d", collision<3>(GimpOptions{}), lumped, StressUpdate::usl,
                    VelocityUpdate::flip);
-  static_case<2>(comparison, "static", false, true);
-  static_case<2>(comparison, "static-gimp", true, true);
-  static_case<3>(comparison, "static-3d", true, true);
+  explicit_case<3>(comparison, "ghost-3d", collision<3>(LinearOptions{}), ghost, StressUpdate::usl,
+                   VelocityUpdate::flip);
+  static_case<2>(comparison, "static", LinearOptions{}, true);
+  static_case<2>(comparison, "static-gimp", GimpOptions{}, true);
+  static_case<3>(comparison, "static-3d", GimpOptions{}, true);
+  // The functions of a cell of splines reach several cells into the next rank.
+  explicit_case<2>(comparison, "lumped-b-spline", collision<2>(splines(3)), lumped, StressUpdate::musl,
+                   VelocityUpdate::apic);
+  explicit_case<2>(comparison, "ghost-b-spline", collision<2>(splines(2)), ghost, StressUpdate::usl,
+                   VelocityUpdate::flip);
+  explicit_case<3>(comparison, "lumped-b-spline-3d", collision<3>(splines(2)), lumped, StressUpdate::usl,
+                   VelocityUpdate::flip);
+  static_case<2>(comparison, "static-b-spline", splines(2), true);
   explicit_case<2>(comparison, "walls", cornered<2>(false), lumped, StressUpdate::usl, VelocityUpdate::flip);
   explicit_case<2>(comparison, "walls-pic", cornered<2>(false), lumped, StressUpdate::usl,
                    VelocityUpdate::apic);

@@ -43,6 +43,46 @@ TEST(Triangles, PatchIsUniformOnAnIrregularTriangulation) {
   }
 }
 
+TEST(Triangles, SplinesAreHeldAlongOneSideOfACornerThatTurnsInwards) {
+  // An L is pulled apart in y about the line y = 1, the side of its corner that holds y; the corner's other
+  // side, on x = 1, holds x. The exact field is u = (-nu/(1 - nu) b (x - 1), b (y - 1)).
+  const double nu = 0.3, b = 1e-3;
+  PowellSabinOptions sides;
+  sides.control_triangles = ControlTriangleRule::corner_sides;
+  ModelOptions o;
+  DelaunayOptions grid;
+  grid.outline.vertices = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  grid.spacing = 0.3;
+  o.triangulation = grid;
+  o.basis = sides;
+  Polygon shape;
+  shape.vertices = grid.outline.vertices;
+  BodyOptions body;
+  body.label = "L", body.shape = shape, body.material = LinearElastic{1.0, 1000.0, nu};
+  body.sampling.points_per_cell = 6;
+  o.bodies.push_back(body);
+  hold_part(o, "side 3", "y"), hold_part(o, "side 4", "x");
+  hold_part(o, "side 1", "y").displacement = ramp(-b);
+  hold_part(o, "side 5", "y").displacement = ramp(b);
+  const auto largest_error = [&] {
+    Model<2> model(o);
+    QuasiStaticOptions q;
+    q.steps = 1;
+    Implicit<2> run(model, q);
+    run.step(1.0);
+    double worst = 0.0;
+    for_each_point(model, [&](const auto& of, std::size_t k) {
+      const Vec<2> u = of.points.displacement[k], x = of.points.position[k] - u;
+      worst = std::max(worst, (u - Vec<2>(-nu / (1 - nu) * b * (x[0] - 1), b * (x[1] - 1))).norm());
+    });
+    return worst;
+  };
+  EXPECT_LT(largest_error(), 0.02 * b);  // what the sum over the points leaves
+  sides.control_triangles = ControlTriangleRule::hull_edges;
+  o.basis = sides;
+  EXPECT_THROW(largest_error(), InputError);
+}
+
 TEST(Triangles, TractionBalancesOnEveryBasis) {
   // Reactions and resultants need no quadrature; splines fix their boundary functions.
   for (const auto& basis : triangle_bases()) {

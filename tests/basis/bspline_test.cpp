@@ -79,6 +79,54 @@ TYPED_TEST(BSplineContract, GradientsAreTheDerivativesOfTheValues) {
   });
 }
 
+TYPED_TEST(BSplineContract, ReproducesPolynomialsToItsDegree) {
+  // The coefficient of x^p is the product of the p knots inside the support (the blossom of x^p), of lower
+  // powers the mean of their products.
+  constexpr int dim = TypeParam::dimension, p = TypeParam::degree;
+  this->for_each_sample([](const auto& basis, const Vec<dim>& x) {
+    for (int power = 0; power <= p; ++power)
+      for (int d = 0; d < dim; ++d) {
+        const auto coefficient = [&](int i) {
+          // Elementary symmetric polynomial of the knots i + 1 .. i + p over the number of its terms.
+          std::array<double, p + 1> e{};
+          e[0] = 1.0;
+          for (int k = 1; k <= p; ++k)
+            for (int j = k; j > 0; --j)
+              e[static_cast<std::size_t>(j)] += e[static_cast<std::size_t>(j - 1)] *
+                                                basis.knots(d).knots()[static_cast<std::size_t>(i + k)];
+          double terms = 1.0;
+          for (int k = 0; k < power; ++k) terms *= static_cast<double>(p - k) / (k + 1);
+          return e[static_cast<std::size_t>(power)] / terms;
+        };
+        double sum = 0.0;
+        basis.tabulate(x, Vec<dim>::Zero()).for_each([&](int, int i, double phi, const Vec<dim>&) {
+          for (int e = 0; e < d; ++e) i /= basis.n_functions(e);
+          sum += phi * coefficient(i % basis.n_functions(d));
+        });
+        ASSERT_NEAR(sum, std::pow(x[d], power), 1e-13 * std::max(1.0, std::pow(3.0, power)));
+      }
+  });
+}
+
+TEST(BSplineOfDegreeOne, IsTheLinearBasis) {
+  for (const auto& grid : {equal_grid<2>(), unequal_grid<2>()}) {
+    const Space<2> space(grid, BoxPartition<2>(grid.cells()), false);
+    const NodeNumbering<2> numbering(space.window());
+    const BSpline<2, 1> splines(grid, numbering);
+    const Linear<2> linear(grid, numbering);
+    for (const auto& x : positions(grid, 60)) {
+      const auto a = splines.tabulate(x, Vec<2>::Zero()), b = linear.tabulate(x, Vec<2>::Zero());
+      ASSERT_EQ(a.base, b.base);
+      ASSERT_EQ(a.stride, b.stride);
+      for (std::size_t d = 0; d < 2; ++d)
+        for (std::size_t k = 0; k < 2; ++k) {
+          ASSERT_NEAR(a.value[d][k], b.value[d][k], 4e-16);
+          ASSERT_NEAR(a.derivative[d][k], b.derivative[d][k], 1e-14);
+        }
+    }
+  }
+}
+
 /// Values of all functions just above and below a knot.
 template <int degree>
 double derivative_jump(const KnotVector& knots, int cell, double x) {

@@ -80,6 +80,70 @@ TEST(Gmsh, ReadsFormats2And4) {
   EXPECT_EQ(read_gmsh(file.path()).part("physical 11").triangles, std::vector<int>{1});
 }
 
+/// Bytes of numbers.
+class Bytes {
+ public:
+  Bytes& text(const std::string& t) { return bytes_ += t, *this; }
+  Bytes& ints(std::initializer_list<std::int32_t> list) { return put(list); }
+  Bytes& sizes(std::initializer_list<std::uint64_t> list) { return put(list); }
+  Bytes& reals(std::initializer_list<double> list) { return put(list); }
+  const std::string& str() const { return bytes_; }
+
+ private:
+  template <class T>
+  Bytes& put(std::initializer_list<T> list) {
+    for (const T value : list) bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+    return *this;
+  }
+  std::string bytes_;
+};
+
+/// The square of `version2` in binary, as the Gmsh manual lays it out.
+std::string binary2() {
+  Bytes b;
+  b.text("$MeshFormat\n2.2 1 8\n").ints({1}).text("\n$EndMeshFormat\n" + names + "$Nodes\n4\n");
+  b.ints({10}).reals({0, 0, 0}).ints({3}).reals({1, 0, 0}).ints({12}).reals({1, 1, 0}).ints({5}).reals(
+      {0, 1, 0});
+  b.text("\n$EndNodes\n$Elements\n5\n").ints({15, 1, 2, 1, 9, 1, 10}).ints({1, 1, 2, 2, 7, 1, 10, 3});
+  b.ints({2, 3, 2, 3, 8, 1, 10, 3, 12, 4, 8, 1, 10, 12, 5, 5, 11, 1, 10, 12, 5});
+  return b.text("\n$EndElements\n").str();
+}
+
+std::string binary41() {
+  Bytes b;
+  b.text("$MeshFormat\n4.1 1 8\n").ints({1}).text("\n$EndMeshFormat\n" + names + "$Entities\n");
+  b.sizes({1, 1, 1, 0}).ints({1}).reals({0, 0, 0}).sizes({1}).ints({9});
+  b.ints({1}).reals({0, 0, 0, 1, 0, 0}).sizes({1}).ints({7}).sizes({2}).ints({1, -2});
+  b.ints({1}).reals({0, 0, 0, 1, 1, 0}).sizes({1}).ints({8}).sizes({1}).ints({1});
+  b.text("\n$EndEntities\n$Nodes\n").sizes({2, 4, 3, 12});
+  b.ints({1, 1, 0}).sizes({2, 10, 3}).reals({0, 0, 0, 1, 0, 0});
+  b.ints({2, 1, 0}).sizes({2, 12, 5}).reals({1, 1, 0, 0, 1, 0});
+  b.text("\n$EndNodes\n$Elements\n").sizes({3, 4, 1, 4}).ints({0, 1, 15}).sizes({1, 1, 10});
+  b.ints({1, 1, 1}).sizes({1, 2, 10, 3}).ints({2, 1, 2}).sizes({2, 3, 10, 3, 12, 4, 10, 12, 5});
+  return b.text("\n$EndElements\n$Periodic\n").ints({1, 2}).text("\n$EndPeriodic\n").str();
+}
+
+TEST(Gmsh, ReadsBinaryFilesLikeTheirText) {
+  const File text(version2);
+  const auto square = read_gmsh(text.path());
+  for (const auto& bytes : {binary2(), binary41()}) {
+    const File file(bytes);
+    const auto mesh = read_gmsh(file.path());
+    ASSERT_EQ(mesh.n_vertices(), 4);
+    ASSERT_EQ(mesh.n_triangles(), 2);
+    for (int v = 0; v < 4; ++v) EXPECT_EQ(mesh.vertex(v), square.vertex(v));
+    for (int t = 0; t < 2; ++t) EXPECT_EQ(mesh.triangle(t), square.triangle(t));
+    EXPECT_EQ(mesh.part("base line").edges, square.part("base line").edges);
+    EXPECT_EQ(mesh.part("pin").vertices, square.part("pin").vertices);
+    EXPECT_EQ(mesh.part("soil").triangles.size(), 2U);
+    for (std::size_t length = 1; length < bytes.find("$EndElements"); length += 7) {
+      const std::string said = message(bytes.substr(0, length));
+      EXPECT_NE(said, "(no error)") << length;
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+  }
+}
+
 /// Any triangulation, written in format 2.2 and 4.1.
 std::string written(const Triangulation& mesh, bool four) {
   std::string text = four ? "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n"
@@ -127,7 +191,8 @@ TEST(Gmsh, WrongFilesAreInputErrors) {
   };
   EXPECT_EQ(says(message("solid\n"), "does not start with $MeshFormat"), "yes");
   EXPECT_EQ(says(with(version2, "2.2 0 8", "3.0 0 8"), ":2: Gmsh format 3 is not known"), "yes");
-  EXPECT_EQ(says(with(version2, "2.2 0 8", "2.2 1 8"), ":2: the file is binary"), "yes");
+  EXPECT_EQ(says(with(version2, "2.2 0 8", "2.2 1 8"), "other order of bytes"), "yes");
+  EXPECT_EQ(says(with(version40, "4 0 8", "4 1 8"), "binary files of format 4.0 are not read"), "yes");
   EXPECT_EQ(says(with(version2, "3 1 0 0\n", "3 1 x 0\n"), ":13: expected y, found 'x'"), "yes");
   EXPECT_EQ(says(with(version2, "3 1 0 0\n", "10 1 0 0\n"), "node 10 is listed twice"), "yes");
   EXPECT_EQ(says(with(version2, "3 1 0 0\n", "3 nan 0 0\n"), "not finite"), "yes");

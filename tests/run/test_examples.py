@@ -111,6 +111,52 @@ def check_filling(results):
     expect(results.history["middle displacement z [m]"][-1] < -0.01, "the middle sinks")
 
 
+def check_soil_column(results):
+    history = results.history
+    time, middle = history["time"], history["middle displacement y [m]"]
+    # By small strains the middle sinks by 2 (3/8) rho g H^2 / E = 7.4 %, less a few percent as the column stiffens.
+    expect(-0.074 < np.min(middle) < -0.06, f"the middle sinks to {np.min(middle)} m")
+    period = time > 0.3
+    back = time[period][np.argmax(middle[period][: np.searchsorted(time[period], 0.45)])]
+    expect(0.36 < back < 0.4 and abs(np.interp(back, time, middle)) < 0.002, f"it is back after {back} s")
+    rest = history["balance error [J/m]"] / np.max(history["external work [J/m]"])
+    expect(np.max(np.abs(rest)) < 0.06, "the energy is kept within the first order of the scheme")
+    whole = (time > 0) & (time <= 2.0 * back)
+    mean = np.mean(history["reaction base y [N/m]"][whole])
+    expect(abs(mean - 981.0) < 0.03 * 981.0, f"the base carries {mean} N/m in the mean")
+    stress, height = results.points()["stress"][:, 1], results.points()["positions"][:, 1]
+    rows = np.array([stress[np.abs(height - h) < 1e-3].mean() for h in np.unique(np.round(height, 3))])
+    expect(np.max(np.abs(np.diff(rows, 2))) < 0.05 * np.ptp(rows), "the stress is smooth over the height")
+
+
+def check_slope(results):
+    history = results.history
+    crest = history["crest displacement y [m]"]
+    expect(-3.0 < crest[-1] < -1.2, f"the crest sinks by {-crest[-1]} m")
+    expect(history["crest displacement x [m]"][-1] > 0.8, "and moves outwards")
+    kinetic = history["kinetic energy [J/m]"]
+    expect(kinetic[-1] < 0.4 * np.max(kinetic), "the slide slows down")
+    lost = history["external work [J/m]"][-1]
+    expect(abs(history["balance error [J/m]"][-1]) < 0.02 * lost, "the lost height is in the energies")
+    expect(history["dissipation [J/m]"][-1] > 0.7 * lost, "most of it is dissipated")
+    start, end = results.points(0)["positions"], results.points()["positions"]
+    order, first = np.argsort(results.points()["id"]), np.argsort(results.points(0)["id"])
+    rise = (end[order] - start[first])[:, 1]
+    toe = (start[first][:, 0] > 26.0) & (start[first][:, 0] < 32.0) & (start[first][:, 1] > 2.5)
+    expect(np.max(rise[toe]) > 0.5, "the ground before the toe heaves")
+    far = start[first][:, 0] > 38.0
+    expect(np.max(np.abs((end[order] - start[first])[far])) < 0.2, "and far away it rests")
+
+
+def check_pile(results):
+    force = -results.history["reaction head y [N/m]"]
+    capacity = (2.0 + np.pi) * 1e4 * 0.5
+    expect(np.all(np.diff(force) > -0.01 * capacity), "the force does not fall")
+    expect(capacity < force[-1] < 1.7 * capacity, f"the pile bears {force[-1] / capacity} of the estimate")
+    expect(abs(force[-1] - force[-6]) < 0.02 * force[-1], "the force levels off")
+    expect(abs(force[2] - 2.0 * force[1]) < 0.02 * force[2], "after an elastic start")
+
+
 def main(program, case):
     name = os.path.basename(os.path.dirname(case))
     with tempfile.TemporaryDirectory() as folder:
@@ -126,6 +172,12 @@ def main(program, case):
         expect(os.path.getsize(os.path.join(out, "picture.png")) > 1000, "a picture")
         if name == "01-compressed-column":
             check_column(results)
+        if name == "09-soil-column":
+            check_soil_column(results)
+        if name == "16-slope-collapse":
+            check_slope(results)
+        if name == "17-pressed-pile":
+            check_pile(results)
         if name == "07-gmsh-arch":
             check_arch(results)
         if name == "18-stl-body":
