@@ -133,7 +133,7 @@ void WallContact<dim>::mark_cells() {
   }
 }
 
-template void WallContact<2>::cut_walls(double);
-template void WallContact<3>::cut_walls(double);
+template class WallContact<2>;
+template class WallContact<3>;
 
 }  // namespace wisp
