@@ -8,11 +8,24 @@ from .results import split_unit
 _PANELS = 4
 
 
+# How a run went rather than what came out of it; drawn if named.
+_OF_THE_STEPS = ("stage", "dt", "residual", "cuts")
+
+
+def _tells_something(history, name):
+    """Not a column of the steps, not one that never changes, not the position of a point whose displacement is there."""
+    displacement = name.replace(" position ", " displacement ")
+    if split_unit(name)[0] in _OF_THE_STEPS or (displacement != name and displacement in history):
+        return False
+    values = np.asarray(history[name])
+    return values.size == 0 or np.any(values != values[0])
+
+
 def choose_columns(history, wanted):
-    """The columns named (with or without their unit), or all but step and time."""
+    """The columns named (with or without their unit), or all that tell something of the bodies."""
     columns = [name for name in history if name not in ("step", "time")]
     if not wanted:
-        return columns
+        return [name for name in columns if _tells_something(history, name)] or columns
     chosen = []
     for name in wanted:
         exact = [c for c in columns if name in (c, split_unit(c)[0])]

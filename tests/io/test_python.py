@@ -175,6 +175,10 @@ class Fields(unittest.TestCase):
         chosen = curves.choose_columns(history, None)
         self.assertEqual(curves.panels_of(chosen, False), [["a [J]", "b [J]"], ["u [m]"], ["n"], ["k"]])
         self.assertEqual(curves.choose_columns(history, ["u", "a [J]"]), ["u [m]", "a [J]"])
+        run = {"step": [0, 1], "time": [0.0, 1.0], "stage": [1, 2], "dt [s]": [0.0, 0.1], "kinetic energy [J]": [0.0, 0.0],
+               "tip position x [m]": [1.0, 2.0], "tip displacement x [m]": [0.0, 1.0], "residual": [0.0, 1e-9]}
+        self.assertEqual(curves.choose_columns(run, None), ["tip displacement x [m]"])
+        self.assertEqual(curves.choose_columns(run, ["stage", "kinetic energy"]), ["stage", "kinetic energy [J]"])
         with self.assertRaisesRegex(ResultsError, r"no column uu; did you mean u\?"):
             curves.choose_columns(history, ["uu"])
 
