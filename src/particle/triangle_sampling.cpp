@@ -1,7 +1,9 @@
 #include "particle/triangle_sampling.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <random>
 
@@ -81,6 +83,45 @@ Outline polygon_of(const Region<2>& shape) {
   return Outline({ring});
 }
 
+/// The edge of some triangles of a mesh as a polygon, with holes. Errors (InputError): they are not in one
+/// piece, or touch at a vertex alone.
+Outline outline_of(const Triangulation& mesh, const std::vector<int>& triangles, const std::string& label) {
+  std::map<int, int> next;  // vertices along the edges that one triangle alone has, the inside on the left
+  std::vector<char> chosen(static_cast<std::size_t>(mesh.n_triangles()), 0);
+  for (const int t : triangles) chosen[static_cast<std::size_t>(t)] = 1;
+  for (const int t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int u = mesh.neighbour(t, k);
+      if (u >= 0 && chosen[static_cast<std::size_t>(u)]) continue;
+      const auto& corners = mesh.triangle(t);
+      const int from = corners[static_cast<std::size_t>(k)],
+                to = corners[static_cast<std::size_t>((k + 1) % 3)];
+      if (!next.emplace(from, to).second)
+        input_error("body '{}': its triangles touch at ({}, {}) alone; volumes must be share", label,
+                    mesh.vertex(from).x(), mesh.vertex(from).y());
+    }
+  std::vector<Ring> rings;
+  std::size_t outer = 0;
+  double greatest = 0.0;
+  while (!next.empty()) {
+    Ring ring;
+    double area = 0.0;
+    for (auto at = next.begin(); at != next.end();) {
+      const Vec<2>&a = mesh.vertex(at->first), &b = mesh.vertex(at->second);
+      ring.push_back(a), area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+      const int to = at->second;
+      next.erase(at);
+      at = next.find(to);
+    }
+    if (area > 0.0 && greatest > 0.0)
+      input_error("body '{}': its triangles are in more than one piece; volumes must be share", label);
+    if (area > 0.0) greatest = area, outer = rings.size();
+    rings.push_back(std::move(ring));
+  }
+  std::swap(rings[0], rings[outer]);
+  return Outline(std::move(rings), "body '" + label + "'");
+}
+
 Layout fill_mesh(const BodyOptions& options, const MeshShape& shape, const std::filesystem::path& folder) {
   const Triangulation mesh = read_gmsh(folder / shape.file, shape.scale);
   if (options.sampling.method == SamplingMethod::divisions ||
@@ -88,17 +129,15 @@ Layout fill_mesh(const BodyOptions& options, const MeshShape& shape, const std::
       !options.sampling.cuts.empty())
     input_error("body '{}': a mesh is sampled triangle by triangle: method cells or random, without clip",
                 options.label);
-  if (options.sampling.volumes == PointVolumes::voronoi)
-    input_error("body '{}': the points of a mesh have equal shares of its triangles; volumes must be share",
-                options.label);
   Layout out;
   Uniform random(options.sampling.seed);
   const auto all = [](const Vec<2>&) { return true; };
-  if (shape.surface.empty())
-    for (int t = 0; t < mesh.n_triangles(); ++t) fill_triangle(mesh, t, options.sampling, random, all, out);
-  else
-    for (const int t : mesh.part(shape.surface).triangles)
-      fill_triangle(mesh, t, options.sampling, random, all, out);
+  std::vector<int> triangles(static_cast<std::size_t>(mesh.n_triangles()));
+  std::iota(triangles.begin(), triangles.end(), 0);
+  if (!shape.surface.empty()) triangles = mesh.part(shape.surface).triangles;
+  for (const int t : triangles) fill_triangle(mesh, t, options.sampling, random, all, out);
+  if (options.sampling.volumes == PointVolumes::voronoi && !triangles.empty())
+    out.volume = voronoi_areas(out.position, outline_of(mesh, triangles, options.label));
   return out;
 }
 

@@ -16,7 +16,7 @@ namespace wisp {
 /// lays rows and columns over the bounding box. Volumes: equal shares of a triangle or box, or the Voronoi
 /// cells of the points in the shape. Ids count from `first_id`. `folder`: where relative file names start.
 /// Errors (InputError): no point lies in the shape, a point outside the grid, a method that needs a
-/// structured grid, Voronoi volumes of a mesh.
+/// structured grid, Voronoi volumes of a mesh in several pieces.
 Body<2> sample(const BodyOptions& options, const Triangulation& grid, std::int64_t first_id,
                const std::filesystem::path& folder);
 

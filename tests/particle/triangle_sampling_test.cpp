@@ -165,6 +165,20 @@ TEST(TriangleSampling, ABodyCanBeASurfaceOfAGmshFile) {
   o.shape = MeshShape{path.string(), "", 1.0};
   EXPECT_EQ(sample(o, mesh(), 0, {}).points.size(), 8);
   o.sampling.volumes = PointVolumes::voronoi;
+  const auto whole = sample(o, mesh(), 0, {});
+  EXPECT_NEAR(total(whole.points.volume), 1.0, 1e-13);
+  o.shape = MeshShape{path.string(), "left", 2.0};
+  const auto cells = sample(o, mesh(), 0, {});
+  EXPECT_NEAR(total(cells.points.volume), 2.0, 1e-13);
+  // Shares would be equal; the middle one of four even points is nearest to less than the others.
+  EXPECT_GT(*std::max_element(cells.points.volume.begin(), cells.points.volume.end()),
+            1.05 * *std::min_element(cells.points.volume.begin(), cells.points.volume.end()));
+  // Two pieces: the ends of a strip of four triangles, which touch in a vertex or not at all.
+  std::ofstream(path)
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n5 0 2 0\n"
+         "6 1 2 0\n$EndNodes\n$Elements\n4\n1 2 2 1 1 1 2 3\n2 2 2 2 1 2 4 3\n3 2 2 2 1 3 4 5\n"
+         "4 2 2 1 1 4 6 5\n$EndElements\n";
+  o.shape = MeshShape{path.string(), "physical 1", 1.0};
   EXPECT_THROW(sample(o, mesh(), 0, {}), InputError);
   std::filesystem::remove(path);
 }
