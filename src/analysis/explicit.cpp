@@ -146,8 +146,9 @@ void Explicit<dim>::points(const PointUpdate& update) {
   const bool own = !update.strain_velocity.empty();
   std::vector<double> gradients;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    smooth_gradients<dim>(*model_.space, model_.bodies, b, cells, own ? update.strain_velocity : update.motion,
-                          own ? dim : motion_stride<dim>, gradients);
+    smooth_gradients<dim>(*model_.space, model_.bodies, b, cells,
+                          own ? update.strain_velocity : update.motion, own ? dim : motion_stride<dim>,
+                          gradients);
     PointUpdate smooth = update;
     smooth.gradients = gradients;
     grid_to_points<dim>(*model_.space, model_.bodies[b], smooth);

@@ -22,8 +22,8 @@ double condition_number(const BlockMatrix& matrix, const DofMap& unknowns);
 /// which is what `projected`, `musl` and, read the other way round, `usf` do, the step is stable up to
 /// 2/sqrt(lambda) with lambda the greatest eigenvalue of W M W K. `usl` moves by v - dt W K u, and with
 /// u* K (step) u every root obeys a real quadratic whose stability ends at z = -1, at the greatest eigenvalue
-/// of (2 W - W M W) K. Where W M = 1 all of them are Coombs's (2023, section 5.1) lambda of K v = lambda M v.
-/// Damping and shares of PIC, which take energy, are not counted.
+/// of (2 W - W M W) K. Where W M = 1 all of them are the lambda of K v = lambda M v (Coombs 2023,
+/// section 5.1). Damping and shares of PIC, which take energy, are not counted.
 template <int dim>
 class ExplicitSpectrum {
  public:

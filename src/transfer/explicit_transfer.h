@@ -49,8 +49,8 @@ struct PointUpdate {
   /// Of a body, n_points x dim x dim: velocity gradients for strain in place of those of the functions, where
   /// they are not NaN; empty: none.
   std::span<const double> gradients;
-  double flip = 1.0;    ///< share of FLIP: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p)
-  bool apic = false;    ///< PIC velocity and affine field
+  double flip = 1.0;  ///< share of FLIP: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p)
+  bool apic = false;  ///< PIC velocity and affine field
 };
 
 /// Updates the points of a body from the grid (Coombs 2023, eq. 8, 9; Jiang et al. 2015 for APIC). Steps that

@@ -142,8 +142,8 @@ bool fit_stress(const Particles<dim>& points, const Group& group, std::span<cons
     const auto p = static_cast<std::size_t>(q);
     const auto [sigma, volume] = stress_and_volume<dim, Law>(points, p, group.old[p]);
     const auto t = fit.taylor(points.position[p]);
-    normal += volume * t * t.transpose();
-    for (int a = 0; a < terms; ++a) right[static_cast<std::size_t>(a)] += volume * t[a] * sigma;
+    normal += t * t.transpose();
+    for (int a = 0; a < terms; ++a) right[static_cast<std::size_t>(a)] += t[a] * sigma;
     filled += volume;
   }
   if (filled < 0.75 * whole) return false;
@@ -216,7 +216,8 @@ void for_each_filled(const Space<dim>& space, const Body<dim>& body, std::size_t
           Fit<dim> fit;
           for_each_cell<dim>(space, basis, filled, [&](int c, const std::vector<GaussPoint<dim>>& gauss) {
             const auto in_cell = of_cells.of(c);
-            if (fit_stress<dim>(body.points, group, in_cell, gauss, fit)) f(basis, group, in_cell, gauss, fit);
+            if (fit_stress<dim>(body.points, group, in_cell, gauss, fit))
+              f(basis, group, in_cell, gauss, fit);
           });
         }
       },
@@ -258,7 +259,7 @@ void smooth_gradients(const Space<dim>& space, const std::vector<Body<dim>>& bod
       space, bodies[body], body, bits_around(space, cells),
       [&](const auto& basis, const auto&, auto in_cell, const auto& gauss, Fit<dim> fit) {
         Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
-        Eigen::Matrix<double, terms, dim * dim> right = Eigen::Matrix<double, terms, dim * dim>::Zero();
+        Eigen::Matrix<double, terms, dim* dim> right = Eigen::Matrix<double, terms, dim * dim>::Zero();
         for (const auto& g : gauss) {
           Mat<dim> gradient = Mat<dim>::Zero();
           basis.tabulate(g.x, none).for_each([&](int, int i, double, const Vec<dim>& dphi) {
@@ -270,10 +271,11 @@ void smooth_gradients(const Space<dim>& space, const std::vector<Body<dim>>& bod
           for (int d = 0; d < dim; ++d)
             for (int e = 0; e < dim; ++e) right.col(d * dim + e) += g.weight * gradient(d, e) * t;
         }
-        const Eigen::Matrix<double, terms, dim * dim> coefficient = normal.ldlt().solve(right);
+        const Eigen::Matrix<double, terms, dim* dim> coefficient = normal.ldlt().solve(right);
         for (const int q : in_cell) {
           const auto p = static_cast<std::size_t>(q);
-          const Eigen::Matrix<double, 1, dim * dim> own = fit.taylor(points.position[p]).transpose() * coefficient;
+          const Eigen::Matrix<double, 1, dim* dim> own =
+              fit.taylor(points.position[p]).transpose() * coefficient;
           for (int k = 0; k < dim * dim; ++k) gradients[p * dim * dim + at(k)] = own[k];
         }
       });

@@ -10,7 +10,7 @@ namespace wisp {
 
 /// Replaces, in the forces of `sums` (n_functions x sums_stride), the internal forces of the points in filled
 /// cells, -sum_p tau_p V0_p grad phi_i, by -integral of sigma_h grad phi_i over the cell with sigma_h the
-/// least-squares fit of the points' Cauchy stress, weighted by their volumes, by the Taylor basis {1, (x - c)/h} of the cell (Wobbes et
+/// least-squares fit of the points' Cauchy stress by the Taylor basis {1, (x - c)/h} of the cell (Wobbes et
 /// al. 2019). A cell is filled if it and all cells around its vertices hold points of one and the same body
 /// and no other, and its points have at least three quarters of its volume. Forces of every cell still sum to
 /// zero, linear stress is integrated exactly, and a point that crosses into the next cell moves no force.

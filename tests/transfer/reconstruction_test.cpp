@@ -244,7 +244,8 @@ TEST(Reconstruction, StrainsPointsByWhatItsForceWorksOn) {
   for (int c = 0; c < n * n; ++c)
     for (int k = 0; k < 4; ++k) {
       const double root = 0.5 / std::sqrt(3.0);
-      body.points.position.emplace_back(c % n + 0.5 + (k % 2 ? root : -root), c / n + 0.5 + (k / 2 ? root : -root));
+      body.points.position.emplace_back(c % n + 0.5 + (k % 2 ? root : -root),
+                                        c / n + 0.5 + (k / 2 ? root : -root));
       body.points.volume.push_back(0.25), body.points.mass.push_back(1.0);
       body.points.velocity.push_back(Vec<2>::Zero());
       body.points.deformation_gradient.push_back(Mat<2>::Identity());
@@ -258,7 +259,8 @@ TEST(Reconstruction, StrainsPointsByWhatItsForceWorksOn) {
   EXPECT_GT(smoothed, 4 * 9 - 1);
   const auto f = forces(*space, {body});
   double power = 0.0, stored = 0.0;
-  for (std::size_t i = 0; i < f.size(); ++i) power += f[i][0] * velocity[2 * i] + f[i][1] * velocity[2 * i + 1];
+  for (std::size_t i = 0; i < f.size(); ++i)
+    power += f[i][0] * velocity[2 * i] + f[i][1] * velocity[2 * i + 1];
   for (std::size_t p = 0; p < gradients.size(); ++p)
     stored += 0.25 * (matrix<2>(states[p].stress).cwiseProduct(gradients[p])).sum();
   EXPECT_NEAR(power, -stored, 1e-12);
