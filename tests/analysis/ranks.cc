@@ -225,15 +225,15 @@ void wall_case(Comparison& comparison, const std::string& name, bool gimp, bool 
   at[1] = -0.36, down[0] = 0.2, down[1] = 1.0;
   WallOptions base = wall("base", PlaneWall{at, down});
   base.kind = WallKind::fixed;
-  body.sampling.cuts.push_back(at), body.sampling.cuts.back().insert(body.sampling.cuts.back().end(),
-                                                                     down.begin(), down.end());
+  body.sampling.cuts.push_back(at),
+      body.sampling.cuts.back().insert(body.sampling.cuts.back().end(), down.begin(), down.end());
   o.boundaries.push_back(base);
   at[1] = 0.36, down[0] = 0.1, down[1] = -1.0;
   WallOptions press = wall("press", PlaneWall{at, down});
   press.kind = WallKind::roller, press.displacement.assign(dim, Curve(0.0));
   press.displacement[0] = ramp(finite ? 0.1 : 0.01);
-  body.sampling.cuts.push_back(at), body.sampling.cuts.back().insert(body.sampling.cuts.back().end(),
-                                                                     down.begin(), down.end());
+  body.sampling.cuts.push_back(at),
+      body.sampling.cuts.back().insert(body.sampling.cuts.back().end(), down.begin(), down.end());
   o.boundaries.push_back(press);
   g[0] = 5.0;
   add_gravity(o, g, ramp());
