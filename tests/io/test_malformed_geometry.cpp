@@ -240,7 +240,7 @@ const Change meshes[] = {
      "case.toml:2:1: [grid] square.msh:19: elements of type 3 are not read; expected triangles with three "
      "nodes (in Gmsh: no recombination)"},
     {"2.2 0 8", "2.2 1 8\n\x01",
-     "case.toml:2:1: [grid] square.msh:2: the file is binary; expected ASCII (in Gmsh: Mesh.Binary = 0)"},
+     "case.toml:2:1: [grid] square.msh:3: the numbers of this binary file have the other order of bytes"},
     {"2.2 0 8", "1 0 8",
      "case.toml:2:1: [grid] square.msh:2: Gmsh format 1 is not known; expected 2 or 4 (in Gmsh: "
      "Mesh.MshFileVersion = 4.1)"},
