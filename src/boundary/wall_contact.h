@@ -186,6 +186,7 @@ class WallContact {
   // wall_points.cpp: points
   template <class F>
   void for_each_near_stencil(const std::vector<Body<dim>>& bodies, F&& f) const;
+  bool in_window(const Vec<dim>& x) const;
   void blend(std::vector<Body<dim>>& bodies);
   void find_light_functions(const StepMass& mass, double light);
 

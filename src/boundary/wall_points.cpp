@@ -15,6 +15,19 @@ constexpr double light_share = 0.05;  // of the mass of a full cell
 
 }  // namespace
 
+/// Whether this rank has the functions of the cell that x lies in.
+template <int dim>
+bool WallContact<dim>::in_window(const Vec<dim>& x) const {
+  if (!x.allFinite()) return false;
+  const StructuredGrid<dim>& grid = space_->grid();
+  MultiIndex<dim> cell;
+  for (int d = 0; d < dim; ++d) {
+    cell[d] = grid.locate_inside(d, x[d]);
+    if (cell[d] < 0 || cell[d] >= grid.cells(d)) return false;
+  }
+  return space_->window().contains_cell(cell);
+}
+
 /// Calls f(points, p, stencil) for every point near a wall.
 template <int dim>
 template <class F>
@@ -26,8 +39,10 @@ void WallContact<dim>::for_each_near_stencil(const std::vector<Body<dim>>& bodie
         for (const PointOf& which : points_) {
           const Particles<dim>& points = bodies[at(which.body)].points;
           const auto p = at(which.point);
-          f(which, points, p,
-            basis.tabulate(points.position[p], Basis::uses_domains ? points.half_length[p] : none));
+          const Vec<dim>& half = Basis::uses_domains ? points.half_length[p] : none;
+          // In a run that breaks up a point has left before the next step says so.
+          if (in_window(points.position[p] - half) && in_window(points.position[p] + half))
+            f(which, points, p, basis.tabulate(points.position[p], half));
         }
       },
       space_->basis());
