@@ -217,5 +217,21 @@ TEST(Walls3D, OutsideTheGridAreRefused) {
       InputError);
 }
 
+/// With steps above the critical one points leave the grid in mid-step: the run must say so, not read beyond
+/// it.
+TEST(WallsOfARunThatBreaksUp, StopWithOneLine) {
+  for (const StressUpdate update : {StressUpdate::usl, StressUpdate::musl})
+    for (const double number : {1.2, 1.5, 2.0, 3.0}) {
+      auto o = on_wall(true, 30.0);
+      o.bodies[0].velocity = {0.0, -0.2};
+      add_gravity(o, {0.0, -g});
+      const Mass mass = apply(MassKind::lumped, o);
+      Model<2> model(o);
+      const double dt = number * h / std::sqrt(1.35 * E / rho);
+      Explicit<2> analysis(model, explicit_steps(dt, mass, update, VelocityUpdate::flip));
+      EXPECT_THROW(for (int k = 0; k < 2000; ++k) analysis.step(dt), RunError) << number;
+    }
+}
+
 }  // namespace
 }  // namespace wisp
