@@ -3,13 +3,12 @@
 #include <random>
 
 #include "analysis/triangle_samples.h"
+#include "analysis/turned_square.h"
 #include "transfer/mass.h"
 
 namespace wisp {
 namespace {
 using namespace analysis_test;
-
-constexpr double cosine = 0.8, sine = 0.6;
 
 LinearElastic elastic() {
   LinearElastic law;
@@ -22,29 +21,12 @@ LinearElastic elastic() {
 ModelOptions square(const AnyLaw& law, const AnyBasisOptions& basis, bool irregular, double h = 0.3) {
   ModelOptions o = irregular ? on_triangles({-1.0, -0.5}, {1.4, 1.9}, h, basis)
                              : on_blocks({-1.0, -0.5}, {1.4, 1.9}, 6, 6, basis);
-  BodyOptions body;
-  body.label = "square";
-  Polygon outline;
-  outline.vertices = {{0.0, 0.0}, {cosine, sine}, {cosine - sine, sine + cosine}, {-sine, cosine}};
-  body.shape = outline;
+  BodyOptions body = turned_square(law);
   const bool linear = std::holds_alternative<LinearOptions>(basis);
   body.sampling.method = linear ? SamplingMethod::cells : SamplingMethod::gauss;
-  body.sampling.points_per_cell = 1, body.sampling.clip = true;
-  body.material = law;
+  body.sampling.points_per_cell = 1;
   o.bodies.push_back(body);
   return o;
-}
-
-WallOptions& add_wall(ModelOptions& o, const char* name, Vec<2> from, Vec<2> to, WallKind kind) {
-  Mat<2> r;
-  r << cosine, -sine, sine, cosine;
-  from = r * from, to = r * to;
-  WallOptions w;
-  w.label = name, w.kind = kind;
-  PolylineWall line;
-  line.vertices = {{from[0], from[1]}, {to[0], to[1]}};
-  w.shape = line;
-  return std::get<WallOptions>(o.boundaries.emplace_back(w));
 }
 
 const std::vector<AnyBasisOptions>& bases() {
@@ -56,10 +38,7 @@ TEST(TriangleWalls, AContainedSquareIsExact) {
   for (const auto& basis : bases())
     for (const bool irregular : {false, true}) {
       ModelOptions o = square(elastic(), basis, irregular);
-      add_wall(o, "left", {0, 1}, {0, 0}, WallKind::roller);
-      add_wall(o, "base", {0, 0}, {1, 0}, WallKind::roller);
-      add_wall(o, "top", {1, 1}, {0, 1}, WallKind::roller);
-      add_wall(o, "press", {1, 0}, {1, 1}, WallKind::roller).displacement = {ramp(1e-3), Curve(0.0)};
+      contain(o, 1e-3);
       Model<2> model(o);
       Implicit<2> analysis(model, QuasiStaticOptions{.steps = 1});
       analysis.step(1.0);

@@ -1,49 +1,16 @@
 // Walls in quasi-static and dynamic steps: exact states at any angle, no creep, Newton's rate, reactions.
 #include <gtest/gtest.h>
 
-#include "analysis/fixtures.h"
+#include "analysis/turned_square.h"
 
 namespace wisp {
 namespace {
 using namespace analysis_test;
 
-constexpr double cosine = 0.8, sine = 0.6;
-
-/// A unit square turned so that its base runs along (0.8, 0.6), points cut at its outline.
-BodyOptions& add_square(ModelOptions& o, const AnyLaw& law) {
-  BodyOptions body;
-  body.label = "square";
-  Polygon outline;
-  outline.vertices = {{0.0, 0.0}, {cosine, sine}, {cosine - sine, sine + cosine}, {-sine, cosine}};
-  body.shape = outline;
-  body.sampling.clip = true;
-  body.material = law;
-  return o.bodies.emplace_back(body);
-}
-
-WallOptions& add_wall(ModelOptions& o, const char* name, Vec<2> from, Vec<2> to, WallKind kind) {
-  Mat<2> r;
-  r << cosine, -sine, sine, cosine;
-  from = r * from, to = r * to;
-  WallOptions w;
-  w.label = name, w.kind = kind;
-  PolylineWall line;
-  line.vertices = {{from[0], from[1]}, {to[0], to[1]}};
-  w.shape = line;
-  return std::get<WallOptions>(o.boundaries.emplace_back(w));
-}
-
 ModelOptions square_on_grid(const AnyLaw& law, bool gimp) {
   ModelOptions o = on_grid<2>({-1.0, -0.5}, {1.4, 1.9}, {12, 12}, gimp);
-  add_square(o, law);
+  o.bodies.push_back(turned_square(law));
   return o;
-}
-
-void contain(ModelOptions& o, double push) {
-  add_wall(o, "left", {0, 1}, {0, 0}, WallKind::roller);
-  add_wall(o, "base", {0, 0}, {1, 0}, WallKind::roller);
-  add_wall(o, "top", {1, 1}, {0, 1}, WallKind::roller);
-  add_wall(o, "press", {1, 0}, {1, 1}, WallKind::roller).displacement = {ramp(push), Curve(0.0)};
 }
 
 TEST(Walls, AContainedSquareIsExact) {
