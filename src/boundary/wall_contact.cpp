@@ -145,6 +145,7 @@ int WallContact<dim>::row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal
 template <int dim>
 void WallContact<dim>::choose_rows(double t, double dt) {
   live_.clear();
+  states_.clear();
   const double h = space_->grid().shortest_side();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const double gap = gap_[r];
@@ -152,8 +153,7 @@ void WallContact<dim>::choose_rows(double t, double dt) {
     const WallRow<dim>& row = rows_[r];
     const auto& wall = walls_[at(row.wall)];
     const bool reached = gap <= held_gap * h;
-    Live live;
-    live.row = static_cast<int>(r);
+    RowState<dim> live;
     live.normal = row.normal;
     live.normal_held = wall.holds_normal();
     live.pushes = wall.unilateral() || !reached;
@@ -165,7 +165,8 @@ void WallContact<dim>::choose_rows(double t, double dt) {
     live.target = wall.motion().moves() ? Vec<dim>(wall.motion().increment(row.middle, t, dt) / dt)
                                         : Vec<dim>(Vec<dim>::Zero());
     live.target += wall.prescribed(row.normal, t, dt);
-    live_.push_back(live);
+    states_.push_back(live);
+    live_.emplace_back().row = static_cast<int>(r);
   }
 }
 

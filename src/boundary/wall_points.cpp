@@ -140,9 +140,9 @@ template <int dim>
 void WallContact<dim>::blend(std::vector<Body<dim>>& bodies) {
   loaded_.assign(functions_.size(), 0);
   bool any = false;
-  for (const Live& live : live_)
-    if (live.loaded())
-      for (const int s : live.slot) loaded_[at(s)] = 1, any = true;
+  for (std::size_t r = 0; r < live_.size(); ++r)
+    if (states_[r].loaded())
+      for (const int s : live_[r].slot) loaded_[at(s)] = 1, any = true;
   if (!any) return;
   constexpr std::size_t stride = 1 + dim;
   momentum_.assign(functions_.size() * stride, 0.0);
