@@ -98,10 +98,11 @@ void bench_newton_walls(int points) {
   double assembly = seconds(timers, "12w");
   for (const auto& part : timers.parts())
     if (part.name.starts_with("3a") || part.name.starts_with("3b")) assembly += part.seconds;
-  print_share("Newton's assembly, GIMP", static_cast<double>(model.n_points()), seconds(timers, "w"), assembly,
-              fmt::format("stencils, Ghost, residual, tangent and walls: {:.0f} ms an iteration; {} iterations "
-                          "in 2 load steps",
-                          1e3 * assembly / iterations, iterations));
+  print_share(
+      "Newton's assembly, GIMP", static_cast<double>(model.n_points()), seconds(timers, "w"), assembly,
+      fmt::format("stencils, Ghost, residual, tangent and walls: {:.0f} ms an iteration; {} iterations "
+                  "in 2 load steps",
+                  1e3 * assembly / iterations, iterations));
 }
 
 }  // namespace

@@ -99,10 +99,10 @@ class WallContact {
   /// and the rows decide by this velocity.
   void correct_strain_velocity(const StepMass& mass, std::span<double> velocity, bool alone = false);
 
-  /// For USL with linear functions: those lighter than 0.05 of a full cell take in `motion` (n_functions x
-  /// stride, velocity and acceleration) the velocity of the momentum that the points will have at the end of
-  /// the step, projected where rows carry an impulse. The points' velocity is then theirs plus dt times the
-  /// acceleration (FLIP); with dt = 0 as it is.
+  /// For USL without domains: functions lighter than 0.05 of their mass in full cells take in `motion`
+  /// (n_functions x stride, velocity and acceleration) the velocity of the momentum that the points will have
+  /// at the end of the step, projected where rows carry an impulse. The points' velocity is then theirs plus
+  /// dt times the acceleration (FLIP); with dt = 0 as it is.
   void calm_light_functions(const std::vector<Body<dim>>& bodies, const StepMass& mass, double dt,
                             std::span<double> motion, int stride);
 
@@ -130,17 +130,20 @@ class WallContact {
   /// The functions of a row of the step.
   struct Live {
     int row = 0;
-    std::array<int, WallRow<dim>::n> slot{};       ///< of its functions in `value_`
-    std::array<double, WallRow<dim>::n> weight{};  ///< over functions with mass, sum one
+    std::size_t n = 0;
+    std::array<int, WallRow<dim>::max_functions> slot{};       ///< of its functions in `value_`
+    std::array<double, WallRow<dim>::max_functions> weight{};  ///< over functions with mass, sum one
   };
 
   // wall_contact_rows.cpp: rows from geometry
   void cut_walls(double t);
   void share_rows();
   void number_rows();
+  void number_rows_on_triangles();
   void mark_cells();
   // wall_contact.cpp: what points and rows mean to each other
   void touch(const Body<dim>& body, PointOf at, double t);
+  std::int64_t cell_number(const Vec<dim>& x) const;
   int row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal) const;
   void choose_rows(double t, double dt);
   // wall_impulses.cpp: velocities
@@ -179,6 +182,8 @@ class WallContact {
   bool in_window(const Vec<dim>& x) const;
   void blend(std::vector<Body<dim>>& bodies);
   void find_light_functions(const StepMass& mass, double light);
+  void mark_cells_of(int function);
+  void list_functions();
 
   std::vector<ContactWall<dim>> walls_;
   const Space<dim>* space_;
@@ -196,18 +201,20 @@ class WallContact {
   std::vector<PointOf> points_;
   std::vector<Touch> touches_;
   std::vector<Live> live_;
-  std::vector<RowState<dim>> states_;  // of the live rows
-  WallSystem<dim> system_;             // likewise
+  std::vector<RowState<dim>> states_;              // of the live rows
+  WallSystem<dim> system_;                         // likewise
   std::vector<int> wall_slot_, slot_, functions_;  // slots of wall functions, of functions, and back; or -1
-  std::vector<double> value_, inverse_;           // over slots x dim: velocity, inverse mass
-  std::vector<double> spread_;                    // likewise: what a row does to the functions
-  std::vector<std::vector<int>> rows_of_slot_;    // live rows
-  std::vector<char> seen_;                        // over live rows
+  std::vector<double> value_, inverse_;            // over slots x dim: velocity, inverse mass
+  std::vector<double> spread_;                     // likewise: what a row does to the functions
+  std::vector<std::vector<int>> rows_of_slot_;     // live rows
+  std::vector<char> seen_;                         // over live rows
   std::vector<int> met_;
-  std::vector<double> slot_mass_;                 // over slots: mass, then for each direction 1 if free
-  std::vector<double> momentum_;                  // over slots or light functions
+  std::vector<double> slot_mass_;  // over slots: mass, then for each direction 1 if free
+  std::vector<double> momentum_;   // over slots or light functions
   std::vector<int> light_functions_, light_number_, light_cells_;
   std::vector<char> light_cell_;
+  std::vector<double> function_volume_;                 // of triangulations: integrals of the functions, m2
+  std::vector<std::vector<int>> triangles_of_;          // likewise: where they are not zero
   std::vector<char> loaded_;                            // over slots: of a row with an impulse
   std::vector<Vec<dim>> impulses_;                      // of live rows
   std::vector<double> right_side_, solved_, coupling_;  // consistent mass; coupling_: rows x rows x dim

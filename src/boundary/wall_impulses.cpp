@@ -20,7 +20,7 @@ void WallContact<dim>::take_functions(const StepMass& mass) {
   functions_.clear();
   std::fill(wall_slot_.begin(), wall_slot_.end(), -1);
   for (const Live& live : live_)
-    for (const int i : rows_[at(live.row)].function) {
+    for (const int i : rows_[at(live.row)].functions()) {
       if (wall_slot_[at(i)] >= 0) continue;
       wall_slot_[at(i)] = static_cast<int>(functions_.size());
       if (local_[at(i)] >= 0) slot_[at(local_[at(i)])] = wall_slot_[at(i)];
@@ -33,13 +33,14 @@ void WallContact<dim>::take_functions(const StepMass& mass) {
     Live& live = live_[k];
     const WallRow<dim>& row = rows_[at(live.row)];
     double sum = 0.0;
-    for (std::size_t i = 0; i < row.function.size(); ++i) {
+    live.n = static_cast<std::size_t>(row.n);
+    for (std::size_t i = 0; i < live.n; ++i) {
       live.slot[i] = wall_slot_[at(row.function[i])];
       live.weight[i] = slot_mass_[at(live.slot[i]) * stride] > 0.0 ? row.weight[i] : 0.0;
       sum += live.weight[i];
     }
     if (!(sum > 0.0)) continue;  // no material on any of its functions
-    for (double& w : live.weight) w /= sum;
+    for (std::size_t i = 0; i < live.n; ++i) live.weight[i] /= sum;
     if (kept != k) live_[kept] = live, states_[kept] = states_[k];
     ++kept;
   }
@@ -83,7 +84,7 @@ void WallContact<dim>::couple(const StepMass& mass) {
   for (std::size_t r = 0; r < n; ++r) {
     const Live& live = live_[r];
     const auto set = [&](bool on) {
-      for (std::size_t i = 0; i < live.slot.size(); ++i)
+      for (std::size_t i = 0; i < live.n; ++i)
         if (const int f = functions_[at(live.slot[i])]; f >= 0)
           std::fill_n(right_side_.begin() + f * dim, dim, on ? live.weight[i] : 0.0);
     };
@@ -92,7 +93,7 @@ void WallContact<dim>::couple(const StepMass& mass) {
     mass.solve(right_side_, solved_);
     set(false);
     for (std::size_t s = 0; s < n; ++s)
-      for (std::size_t i = 0; i < live_[s].slot.size(); ++i)
+      for (std::size_t i = 0; i < live_[s].n; ++i)
         if (const int f = functions_[at(live_[s].slot[i])]; f >= 0 && space_->nodes().owns(f))
           for (std::size_t d = 0; d < dim; ++d)
             coupling_[(r * n + s) * dim + d] += live_[s].weight[i] * solved_[at(f) * dim + d];
@@ -110,13 +111,13 @@ void WallContact<dim>::couple_by_functions() {
   if (rows_of_slot_.size() < functions_.size()) rows_of_slot_.resize(functions_.size());
   for (auto& rows : rows_of_slot_) rows.clear();
   for (std::size_t r = 0; r < live_.size(); ++r)
-    for (std::size_t i = 0; i < live_[r].slot.size(); ++i)
-      if (live_[r].weight[i] > 0.0) rows_of_slot_[at(live_[r].slot[i])].push_back(static_cast<int>(r));
+    for (std::size_t i = 0; i < live_[r].n; ++i)
+      if (live_[r].weight[i] != 0.0) rows_of_slot_[at(live_[r].slot[i])].push_back(static_cast<int>(r));
   seen_.assign(live_.size(), 0);
   for (const Live& live : live_) {
     met_.clear();
-    for (std::size_t i = 0; i < live.slot.size(); ++i) {
-      if (!(live.weight[i] > 0.0)) continue;
+    for (std::size_t i = 0; i < live.n; ++i) {
+      if (live.weight[i] == 0.0) continue;
       for (const int s : rows_of_slot_[at(live.slot[i])])
         if (!seen_[at(s)]) seen_[at(s)] = 1, met_.push_back(s);
       for (int d = 0; d < dim; ++d)
@@ -126,12 +127,12 @@ void WallContact<dim>::couple_by_functions() {
       seen_[at(s)] = 0;
       const Live& other = live_[at(s)];
       Vec<dim> a = Vec<dim>::Zero();
-      for (std::size_t j = 0; j < other.slot.size(); ++j)
+      for (std::size_t j = 0; j < other.n; ++j)
         a += other.weight[j] * Eigen::Map<const Vec<dim>>(spread_.data() + at(other.slot[j]) * dim);
       system_.add(s, a);
     }
     system_.end_row();
-    for (const int slot : live.slot) std::fill_n(spread_.begin() + slot * dim, dim, 0.0);
+    for (std::size_t i = 0; i < live.n; ++i) std::fill_n(spread_.begin() + live.slot[i] * dim, dim, 0.0);
   }
 }
 
@@ -140,8 +141,9 @@ void WallContact<dim>::take_row_velocities() {
   auto& velocity = system_.velocity();
   velocity.assign(live_.size(), Vec<dim>::Zero());
   for (std::size_t r = 0; r < live_.size(); ++r)
-    for (std::size_t i = 0; i < live_[r].slot.size(); ++i)
-      velocity[r] += live_[r].weight[i] * Eigen::Map<const Vec<dim>>(value_.data() + at(live_[r].slot[i]) * dim);
+    for (std::size_t i = 0; i < live_[r].n; ++i)
+      velocity[r] +=
+          live_[r].weight[i] * Eigen::Map<const Vec<dim>>(value_.data() + at(live_[r].slot[i]) * dim);
 }
 
 /// `value_` made admissible on the rows that carry an impulse.
@@ -158,7 +160,7 @@ template <int dim>
 void WallContact<dim>::spread_lumped() {
   for (std::size_t r = 0; r < live_.size(); ++r) {
     if (impulses_[r].isZero(0.0)) continue;
-    for (std::size_t i = 0; i < live_[r].slot.size(); ++i)
+    for (std::size_t i = 0; i < live_[r].n; ++i)
       for (int d = 0; d < dim; ++d) {
         const std::size_t k = at(live_[r].slot[i]) * dim + at(d);
         value_[k] += live_[r].weight[i] * inverse_[k] * impulses_[r][d];
@@ -169,7 +171,7 @@ void WallContact<dim>::spread_lumped() {
 /// C^T impulse of one row.
 template <int dim>
 void WallContact<dim>::add_row(const Live& live, const Vec<dim>& impulse, std::span<double> sum) const {
-  for (std::size_t i = 0; i < live.slot.size(); ++i)
+  for (std::size_t i = 0; i < live.n; ++i)
     if (const int f = functions_[at(live.slot[i])]; f >= 0)
       for (int d = 0; d < dim; ++d) sum[at(f) * dim + at(d)] += live.weight[i] * impulse[d];
 }
@@ -202,7 +204,8 @@ void WallContact<dim>::correct_velocity(const StepMass& mass, std::span<const do
   if (!consistent_) {
     value_.assign(value_.size(), 0.0);
     spread_lumped();
-    give_values([&](std::size_t f, std::size_t d, std::size_t k) { acceleration[f * dim + d] += value_[k] / dt; });
+    give_values(
+        [&](std::size_t f, std::size_t d, std::size_t k) { acceleration[f * dim + d] += value_[k] / dt; });
   } else if (!live_.empty()) {
     spread(mass, solved_);
     for (std::size_t k = 0; k < acceleration.size(); ++k) acceleration[k] += solved_[k] / dt;

@@ -9,7 +9,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-constexpr double yield = 1e-4;       // of A_rr
 constexpr double tolerance = 1e-10;  // of the largest change that the first sweep asks for
 constexpr int max_rounds = 12;       // of two sweeps and a solve
 constexpr int last_sweeps = 50;      // where the rounds do not settle
@@ -72,8 +71,8 @@ double WallSystem<dim>::solve_tangent(RowState<dim>& row, int r) {
   const double a = diagonal_[at(r)].maxCoeff();
   if (!row.tangent_held || !(a > 0.0)) return 0.0;
   const Vec<dim> u = velocity_[at(r)] - row.target;
-  Vec<dim> lambda = row.lambda_t -
-                    (u - u.dot(row.normal) * row.normal + yield * a * row.lambda_t) / (a * (1.0 + yield));
+  Vec<dim> lambda =
+      row.lambda_t - (u - u.dot(row.normal) * row.normal + yield * a * row.lambda_t) / (a * (1.0 + yield));
   row.sticks = true;
   if (row.slips) {  // Coulomb
     const double most = row.friction * std::abs(row.lambda_n), size = lambda.norm();
@@ -128,8 +127,7 @@ void WallSystem<dim>::solve_active(std::span<RowState<dim>> rows) {
     unknowns_of_[at(r)].first = static_cast<int>(unknowns_.size());
     const Vec<dim> u = velocity_[at(r)] - row.target;
     if (row.normal_held && (!row.pushes || row.lambda_n > 0.0))
-      add_unknown(r, row.normal,
-                  row.bias - u.dot(row.normal) - yielding(r, row.normal) * row.lambda_n, true);
+      add_unknown(r, row.normal, row.bias - u.dot(row.normal) - yielding(r, row.normal) * row.lambda_n, true);
     if (row.tangent_held && row.sticks)
       add_tangents(r, row.normal, -u - yield * diagonal_[at(r)].cwiseProduct(row.lambda_t));
     unknowns_of_[at(r)].second = static_cast<int>(unknowns_.size()) - unknowns_of_[at(r)].first;

@@ -15,24 +15,26 @@ struct RowState {
   double bias = 0.0;        ///< least u_n, m/s
   bool normal_held = false, tangent_held = false, pushes = false, slips = false, sticks = false;
   double friction = 0.0;
-  double lambda_n = 0.0;                  ///< N s
-  Vec<dim> lambda_t = Vec<dim>::Zero();   ///< N s
+  double lambda_n = 0.0;                 ///< N s
+  Vec<dim> lambda_t = Vec<dim>::Zero();  ///< N s
 
   Vec<dim> impulse() const { return lambda_n * normal + lambda_t; }
   bool loaded() const { return lambda_n != 0.0 || !lambda_t.isZero(0.0); }
 };
 
-/// Rows r with velocities w_r that impulses change by A lambda, A = C M^-1 C^T, one number a direction and pair
-/// of rows. Neighbouring rows share most of their functions, so A is nearly singular: the iteration of Gauss
-/// and Seidel alone would need as many sweeps as the square of the rows along a wall. It only finds which rows
-/// carry what; the equations of those are solved at once, in turns (projected Gauss-Seidel with subspace
-/// minimisation, Silcowitz, Niebe and Erleben 2010): by a band of L D L^T, or where that is wide, as beside
-/// large surfaces in 3D, by conjugate gradients.
+/// Rows r with velocities w_r that impulses change by A lambda, A = C M^-1 C^T, one number a direction and
+/// pair of rows. Neighbouring rows share most of their functions, so A is nearly singular: the iteration of
+/// Gauss and Seidel alone would need as many sweeps as the square of the rows along a wall. It only finds
+/// which rows carry what; the equations of those are solved at once, in turns (projected Gauss-Seidel with
+/// subspace minimisation, Silcowitz, Niebe and Erleben 2010): by a band of L D L^T, or where that is wide, as
+/// beside large surfaces in 3D, by conjugate gradients.
 ///
-/// A row yields by 1e-4 A_rr lambda_r, which makes rows that say the same twice share an impulse.
+/// A row yields by `yield` A_rr lambda_r, which makes rows that say the same twice share an impulse.
 template <int dim>
 class WallSystem {
  public:
+  static constexpr double yield = 1e-4;
+
   /// Drops all rows.
   void clear();
   /// Adds to the row under way what an impulse on row `other` does to it (1/kg); `end_row` begins the next.
@@ -88,11 +90,11 @@ class WallSystem {
   std::vector<int> first_{0};  // of the entries of a row, and the end
   std::vector<Entry> entries_;
   std::vector<Vec<dim>> velocity_, diagonal_;
-  std::vector<int> order_, place_, queue_;       // rows by place, and back
+  std::vector<int> order_, place_, queue_;        // rows by place, and back
   std::vector<std::pair<int, int>> unknowns_of_;  // first unknown of a row, and how many
   std::vector<Unknown> unknowns_;
-  std::vector<int> low_;               // first column of a row of the factor
-  std::vector<std::size_t> start_;     // where it is in `factor_`
+  std::vector<int> low_;            // first column of a row of the factor
+  std::vector<std::size_t> start_;  // where it is in `factor_`
   std::vector<double> factor_, change_, pivot_;
   std::vector<double> rest_, search_, image_;  // of conjugate gradients
   std::vector<Vec<dim>> pushed_;               // over rows
