@@ -3,37 +3,21 @@
 
 #include <fstream>
 
-#include "core/error.h"
 #include "grid/triangulate.h"
-#include "io/case.h"
+#include "io/malformed.h"
 #include "io/temporary_folder.h"
 
 namespace wisp {
 namespace {
 
-/// What a good case is changed by: the first occurrence of a text in its case file or in its mesh or surface.
-struct Change {
-  const char* what;
-  const char* with;
-  const char* message;
-};
-
-std::string changed(std::string text, const Change& change) {
-  const auto at = text.find(change.what);
-  if (at == std::string::npos) return "the good text has no such part";
-  return text.replace(at, std::string(change.what).size(), change.with);
-}
+using test::Change;
+using test::changed;
 
 /// Writes the file that the case names and reads the case; the message without the folder's name.
 std::string complaint(const std::string& text, const std::string& file_name, const std::string& file) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / file_name, std::ios::binary) << file;
-  std::string message = "(no error)";
-  try {
-    read_case(CaseSource{"case.toml", folder.path(), text, {}});
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  std::string message = test::complaint(text, folder.path());
   const std::string path = folder.path().string() + "/";
   for (auto at = message.find(path); at != std::string::npos; at = message.find(path))
     message.erase(at, path.size());
