@@ -128,18 +128,9 @@ Rest rest(const Variant& variant) {
 double rebound(const Variant& variant, double degrees, int cells) {
   constexpr double modulus = 1e6;
   const double size = cells * cell;
-  const bool mirrored = degrees < 0.0;
-  Scene scene = block(variant, std::max(degrees, 0.0), size, size, modulus, 2, 0.3 * cell);
+  Scene scene = block(variant, degrees, size, size, modulus, 2, 0.3 * cell);
   scene.options.bodies[0].velocity = {-scene.up[0], -scene.up[1]};
-  if (mirrored) {
-    BodyOptions image = scene.options.bodies[0];
-    image.label = "image";
-    image.shape = block(variant, 180.0, size, size, modulus, 2, 0.3 * cell).options.bodies[0].shape;
-    image.velocity = {scene.up[0], scene.up[1]};
-    scene.options.bodies.push_back(image);
-  } else {
-    wall(scene, 0.0);
-  }
+  wall(scene, 0.0);
   Run run(scene, explicit_options(variant, 1.0, time_step(modulus, courant(variant))));
   double most = 0.0;
   run.go(0.05 * cells, [&] { most = std::max(most, run.momentum().dot(scene.up) / run.mass()); });
@@ -239,7 +230,7 @@ double critical_number(const Variant& variant, bool with_wall) {
       return false;
     }
   };
-  double low = 0.3, high = 1.7;
+  double low = 0.3, high = 2.5;
   for (int k = 0; k < 7; ++k) {
     const double middle = 0.5 * (low + high);
     (stable(middle) ? low : high) = middle;

@@ -30,8 +30,8 @@ struct Rest {
 };
 Rest rest(const Variant& variant);
 
-/// Speed of the centre after an impact at 1 m/s, block of `cells` cells: largest. A negative angle means a
-/// block against its mirror image on a grid line, the body-fitted wall.
+/// Speed of the centre after an impact at 1 m/s on a smooth wall, block of `cells` cells: largest. At 0
+/// degrees and offset 0 the wall lies on a grid line: a body-fitted one.
 double rebound(const Variant& variant, double degrees, int cells);
 
 /// A wall pushes a block with constant acceleration: mean force from 0.2 s to 0.8 s over mass times

@@ -89,17 +89,24 @@ Rows resting(const std::vector<Variant>& list) {
   return rows;
 }
 
+/// An impact stops the layer of nodes at the wall at once: half a layer where nodes lie on the wall, up to a
+/// whole one where they do not. What differs is at most h/(2H) of the energy, of which some 0.55 are left in
+/// the motion of the centre: 4 % of its speed for 12 cells, 8 % for 6 of twice the side.
 Rows rebounding(const std::vector<Variant>& list) {
   Rows rows;
   for (const Variant& v : list) {
     Variant fitted = v;
-    fitted.offset = 0.0, fitted.update = StressUpdate::musl;  // USL and linear functions fail there
-    const double embedded = rebound(v, 20.0, 12);
-    VerificationRow row = shown(v.name(), "speed after the impact over that on a body-fitted wall, 12 cells",
-                                embedded / rebound(fitted, -1.0, 12));
-    row.expected = 1.0, row.reference = "converged", row.tolerance = 0.12, row.gated = true;
-    rows.push_back(row);
-    rows.push_back(shown(v.name(), "the same, 6 cells", rebound(v, 20.0, 6) / rebound(fitted, -1.0, 6)));
+    fitted.offset = 0.0;
+    for (const int cells : {12, 6}) {
+      const std::string after = fmt::format("speed after the impact, {} cells, ", cells);
+      const double embedded = rebound(v, 20.0, cells), level = rebound(fitted, 0.0, cells);
+      rows.push_back(shown(v.name(), (after + "inclined wall").c_str(), embedded));
+      rows.push_back(shown(v.name(), (after + "wall on a grid line").c_str(), level));
+      VerificationRow row = shown(v.name(), (after + "ratio").c_str(), embedded / level);
+      row.expected = 1.0, row.reference = "converged", row.tolerance = 0.04 * v.side() / cell,
+      row.gated = cells == 12;
+      rows.push_back(row);
+    }
   }
   return rows;
 }
@@ -165,7 +172,7 @@ std::vector<VerificationTable> explicit_wall_tables() {
   std::vector<VerificationTable> all{
       table("incline", "block on an embedded 30 degree incline: sliding, sticking, momentum", incline),
       table("rest", "block at rest on an inclined wall", resting),
-      table("rebound", "block that hits an inclined wall, against a body-fitted one", rebounding),
+      table("rebound", "block that hits an inclined wall, against a wall on a grid line", rebounding),
       table("push", "wall that pushes a block with constant acceleration", pushing),
       table("corner", "block in the corner of two inclined walls", cornered),
       table("disc", "disc that rolls or slides down 60 degrees", rolling),
@@ -183,7 +190,7 @@ std::vector<VerificationTable> explicit_wall_tables() {
                  [](const VerificationRequest&) {
                    const auto list = triangle_variants();
                    Rows rows = incline(list);
-                   for (const Measure measure : {resting, pushing, cornered, time_steps})
+                   for (const Measure measure : {resting, rebounding, pushing, cornered, time_steps})
                      for (auto& row : measure(list)) rows.push_back(row);
                    return rows;
                  }});
