@@ -277,11 +277,6 @@ const Change cases_on_triangles[] = {
     {"type = \"box\"\nlower = [0.25, 0.0]\nupper = [0.75, 0.5]",
      "type = \"mesh\"\nfile = \"square.msh\"\nsurface = \"sand\"",
      "case.toml:7:1: [body.shape] the triangulation has no boundary 'sand'; valid: base, soil"},
-    {"name = \"floor\"\npart = \"base\"\ndirections = [\"x\", \"y\"]",
-     "type = \"wall\"\nname = \"floor\"\nshape = { type = \"plane\", point = [0.0, 0.1], normal = [0.0, 1.0] "
-     "}",
-     "case.toml:20:8: [stage] type: explicit stages have walls on structured grids only; on triangles hold a "
-     "named part"},
     {"name = \"soil\"", "name = \"soil\"\nsampling = { method = \"random\", clip = true }",
      "case.toml:7:12: [body.sampling] points on triangles are cut with method \"cells\" or \"gauss\" only"},
     {"name = \"soil\"", "name = \"soil\"\nsampling = { clip = true, volumes = \"voronoi\" }",
