@@ -43,7 +43,7 @@ endif()
 target_compile_definitions(wisp_options INTERFACE OMPI_SKIP_MPICXX PETSC_SKIP_CXX_COMPLEX_FIX)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   # No -ffast-math: results must not depend on the compiler's mood. These two only drop errno and signalling NaNs.
-  target_compile_options(wisp_options INTERFACE -O3 -fno-math-errno -fno-trapping-math)
+  target_compile_options(wisp_options INTERFACE -fno-math-errno -fno-trapping-math)
 endif()
 if(WISP_NATIVE)
   target_compile_options(wisp_options INTERFACE -march=native)
@@ -51,10 +51,18 @@ endif()
 if(WISP_SANITIZE)
   target_compile_options(wisp_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                 -fno-omit-frame-pointer -g1)
+  # Two checks before every access to memory that take a third of the time to compile: what they find ends in a
+  # report of the address sanitizer (null), or in Eigen's own assertion (alignment).
+  target_compile_options(wisp_options INTERFACE -fno-sanitize=null,alignment)
   target_link_options(wisp_options INTERFACE -fsanitize=address,undefined)
   # Without optimisation these attributes still copy a kernel with all its checks into every caller: three times the
   # time to compile room transfer, and 2 GB for one file.
   target_compile_definitions(wisp_options INTERFACE always_inline=unused flatten=unused)
+endif()
+
+include(cmake/precompiled.cmake)
+if(WISP_PRECOMPILE)
+  wisp_precompiled(wisp_precompiled)
 endif()
 
 set(WISP_ROOMS "" CACHE INTERNAL "")
@@ -64,6 +72,7 @@ function(wisp_room name layer)
   list(TRANSFORM ROOM_ROOMS PREPEND wisp_)
   if(sources)
     add_library(wisp_${name} STATIC ${sources})
+    wisp_use_precompiled(wisp_${name} wisp_precompiled)
     set(scope PUBLIC)
   else()
     add_library(wisp_${name} INTERFACE)
@@ -79,6 +88,7 @@ function(wisp_verification)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/verification/*/*.cpp ${PROJECT_SOURCE_DIR}/verification/*.cpp)
   if(sources)
     add_library(wisp_verification STATIC ${sources})
+    wisp_use_precompiled(wisp_verification wisp_precompiled)
     target_include_directories(wisp_verification PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(wisp_verification PUBLIC wisp_app)
   endif()

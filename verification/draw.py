@@ -36,7 +36,8 @@ def curves(figure, titles, data):
     if len(titles) == 2:
         axes.set_ylabel(titles[1])
     else:
-        axes.legend(frameon=False, fontsize=8)
+        beside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)} if len(titles) > 5 else {}
+        axes.legend(frameon=False, fontsize=8, **beside)
     axes.grid(True, color="#d9dee3", linewidth=0.6)
     return axes
 

@@ -100,27 +100,8 @@ void Implicit<dim>::set_up(double dt) {
     external_force(model_.time, start_external_);
   }
   if (walls_) start_walls(cells, dt);
+  set_up_matrices(cells, dt);
   const auto timer = model_.timers.start("2 ghost matrix");
-  const auto& options = ghost_options_;
-  std::vector<GhostFacet> facets;
-  if (options)
-    facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), options->elements);
-  ghost_.begin_pattern(space.n_functions());
-  add_point_pattern(space, model_.bodies, ghost_);
-  add_ghost_pattern(space, facets, ghost_);
-  if (walls_)
-    for_each<Wall, dim>(model_.boundaries,
-                        [&](const Wall<dim>& wall, std::size_t) { wall.add_pattern(ghost_); });
-  ghost_.end_pattern();
-  if (options) add_ghost(space, facets, *options, GhostMatrix::stiffness, ghost_);
-  stiffness_.share_pattern(ghost_);
-  if (walls_) assemble_walls();
-  if (newmark_) {
-    mass_.share_pattern(ghost_);
-    add_consistent_mass(space, model_.bodies, mass_);
-    if (options) add_ghost(space, facets, *options, GhostMatrix::mass, mass_);
-    start_inertia(dt);
-  }
   number_unknowns();
   prescribed_.assign(n * dim, 0.0);
   set_increments(model_.boundaries, model_.time, dt, model_.constraints);
@@ -128,6 +109,36 @@ void Implicit<dim>::set_up(double dt) {
     if (model_.constraints.fixed[k] && active_[k / dim]) prescribed_[k] = model_.constraints.prescribed(k);
   reaction_.assign(n * dim, 0.0);
   evaluations_ = 0;
+}
+
+/// The pattern of all matrices, and those that stay the same in a step.
+template <int dim>
+void Implicit<dim>::set_up_matrices(const ActiveCells& cells, double dt) {
+  const auto& space = *model_.space;
+  const auto& options = ghost_options_;
+  std::vector<GhostFacet> facets;
+  {
+    const auto timer = model_.timers.start("2 ghost matrix");
+    if (options)
+      facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), options->elements);
+    ghost_.begin_pattern(space.n_functions());
+    add_point_pattern(space, model_.bodies, ghost_);
+    add_ghost_pattern(space, facets, ghost_);
+    if (walls_)
+      for_each<Wall, dim>(model_.boundaries,
+                          [&](const Wall<dim>& wall, std::size_t) { wall.add_pattern(ghost_); });
+    ghost_.end_pattern();
+    if (options) add_ghost(space, facets, *options, GhostMatrix::stiffness, ghost_);
+    stiffness_.share_pattern(ghost_);
+  }
+  if (walls_) assemble_walls();
+  const auto timer = model_.timers.start("2 ghost matrix");
+  if (newmark_) {
+    mass_.share_pattern(ghost_);
+    add_consistent_mass(space, model_.bodies, mass_);
+    if (options) add_ghost(space, facets, *options, GhostMatrix::mass, mass_);
+    start_inertia(dt);
+  }
 }
 
 /// Numbers the unknowns the way the solver wants them; multigrid also gets their coordinates, for its
@@ -229,9 +240,12 @@ std::vector<double> Implicit<dim>::acceleration(std::span<const double> u, doubl
 
 template <int dim>
 double Implicit<dim>::residual(std::span<const double> u, double dt) {
-  const auto timer = model_.timers.start("3a residual");
   const auto& space = *model_.space;
   const auto n = static_cast<std::size_t>(space.n_functions());
+  std::vector<double> action(n * dim);
+  for (std::size_t k = 0; k < action.size(); ++k) action[k] = external_[k] + reaction_[k];
+  if (walls_) add_walls(u, action);
+  const auto timer = model_.timers.start("3a residual");
   force_.assign(n * dim, 0.0);
   ghost_.multiply_columns(u, force_, dim);
   int inverted = 0;
@@ -244,9 +258,6 @@ double Implicit<dim>::residual(std::span<const double> u, double dt) {
   }
   space.nodes().add_update(force_.data(), dim);
   residual_.resize(n * dim);
-  std::vector<double> action(n * dim);
-  for (std::size_t k = 0; k < residual_.size(); ++k) action[k] = external_[k] + reaction_[k];
-  if (walls_) add_walls(u, action);
   for (std::size_t k = 0; k < residual_.size(); ++k) residual_[k] = action[k] - force_[k];
   ++evaluations_;
   if (Session::sum(inverted) > 0) return std::numeric_limits<double>::quiet_NaN();
@@ -269,9 +280,9 @@ std::string Implicit<dim>::correct(std::span<double> du, std::span<const double>
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
       add_stiffness(stencils_[b], model_.bodies[b], u, dt, stiffness_);
     stiffness_.add_matrix(1.0, ghost_);
-    if (walls_) stiffness_.add_matrix(1.0, wall_matrix_);
     if (newmark_) stiffness_.add_matrix(1.0 / (newmark_->beta * dt * dt), mass_);
   }
+  if (walls_) add_wall_stiffness();
   const auto timer = model_.timers.start("3c solve");
   std::vector<double> lift(du.size(), 0.0), right(residual_), product(du.size());
   for (std::size_t k = 0; k < model_.constraints.fixed.size(); ++k)
@@ -317,25 +328,26 @@ void Implicit<dim>::update_velocities(std::span<const double> u, double dt) {
 
 template <int dim>
 void Implicit<dim>::finish(std::span<const double> u, double dt) {
+  points_changed_ = true;
+  for (auto& r : model_.reactions) r.setZero();
+  if (walls_) finish_walls(u, dt);
   const auto timer = model_.timers.start("4 move, commit");
   const auto& space = *model_.space;
   displacement_.assign(u.begin(), u.end());
   double work = 0.0;
-  for (auto& r : model_.reactions) r.setZero();
+  std::vector<Vec<dim>> held(model_.reactions.size(), Vec<dim>::Zero());
   for (int i = 0; i < space.n_functions(); ++i) {
     if (!space.nodes().owns(i)) continue;
     for (int d = 0; d < dim; ++d) {
       const auto k = static_cast<std::size_t>(i * dim + d);
       work += 0.5 * (external_[k] + start_external_[k]) * u[k];
       if (!model_.constraints.any || !model_.constraints.fixed[k]) continue;
-      model_.reactions[static_cast<std::size_t>(model_.constraints.condition[k])][d] += reaction_[k];
+      held[static_cast<std::size_t>(model_.constraints.condition[k])][d] += reaction_[k];
       work += reaction_[k] * u[k];
     }
   }
   model_.external_work += Session::sum(work);
-  for (auto& r : model_.reactions) r = Session::sum(r);
-  points_changed_ = true;
-  if (walls_) finish_walls(u, dt);
+  for (std::size_t k = 0; k < held.size(); ++k) model_.reactions[k] += Session::sum(held[k]);
   model_.move_loads(u, dim, 1.0);
   if (newmark_) update_velocities(u, dt);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) commit(stencils_[b], model_.bodies[b], u);

@@ -51,12 +51,14 @@ class Implicit {
   void prepare();
   NewtonReport attempt(double dt);
   void set_up(double dt);
+  void set_up_matrices(const ActiveCells& cells, double dt);
   void number_unknowns();
   void external_force(double t, std::vector<double>& force) const;
   void start_inertia(double dt);
   void start_walls(const ActiveCells& cells, double dt);
   void assemble_walls();
   void add_walls(std::span<const double> u, std::vector<double>& action);
+  void add_wall_stiffness();
   void finish_walls(std::span<const double> u, double dt);
   double residual(std::span<const double> u, double dt);
   std::string correct(std::span<double> du, std::span<const double> u, double dt);

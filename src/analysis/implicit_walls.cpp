@@ -25,14 +25,14 @@ void Implicit<dim>::prepare() {
   });
   model_.timers.part("1 locate, stencils");
   model_.timers.part("2 ghost matrix");
-  if (walls_) model_.timers.part("2b walls");
   for (const char* name : {"3a residual", "3b tangent", "3c solve", "4 move, commit"})
     model_.timers.part(name);
+  if (walls_) model_.timers.part("walls");
 }
 
 template <int dim>
 void Implicit<dim>::start_walls(const ActiveCells& cells, double dt) {
-  const auto timer = model_.timers.start("2b walls");
+  const auto timer = model_.timers.start("walls");
   for_each<Wall, dim>(model_.boundaries, [&](Wall<dim>& wall, std::size_t) {
     wall.begin_step(*model_.space, cells, model_.bodies, model_.time, dt);
   });
@@ -41,7 +41,7 @@ void Implicit<dim>::start_walls(const ActiveCells& cells, double dt) {
 /// What walls take up in a step is linear in the displacement, so their tangent is exact.
 template <int dim>
 void Implicit<dim>::assemble_walls() {
-  const auto timer = model_.timers.start("2b walls");
+  const auto timer = model_.timers.start("walls");
   wall_matrix_.share_pattern(ghost_);
   wall_force_.assign(static_cast<std::size_t>(model_.space->n_functions()) * dim, 0.0);
   for_each<Wall, dim>(model_.boundaries, [&](const Wall<dim>& wall, std::size_t) {
@@ -53,6 +53,7 @@ void Implicit<dim>::assemble_walls() {
 /// Takes what walls take up at a displacement from the forces on the functions; owners and ghosts.
 template <int dim>
 void Implicit<dim>::add_walls(std::span<const double> u, std::vector<double>& action) {
+  const auto timer = model_.timers.start("walls");
   wall_action_.resize(action.size());
   wall_matrix_.multiply(u, wall_action_);
   for (std::size_t k = 0; k < wall_action_.size(); ++k) wall_action_[k] += wall_force_[k];
@@ -61,7 +62,14 @@ void Implicit<dim>::add_walls(std::span<const double> u, std::vector<double>& ac
 }
 
 template <int dim>
+void Implicit<dim>::add_wall_stiffness() {
+  const auto timer = model_.timers.start("walls");
+  stiffness_.add_matrix(1.0, wall_matrix_);
+}
+
+template <int dim>
 void Implicit<dim>::finish_walls(std::span<const double> u, double dt) {
+  const auto timer = model_.timers.start("walls");
   for_each<Wall, dim>(model_.boundaries, [&](Wall<dim>& wall, std::size_t k) {
     wall.finish(u, model_.time, dt);
     model_.reactions[k] = wall.reaction, model_.moments[k] = wall.moment;
@@ -73,11 +81,13 @@ template void Implicit<2>::prepare();
 template void Implicit<2>::start_walls(const ActiveCells&, double);
 template void Implicit<2>::assemble_walls();
 template void Implicit<2>::add_walls(std::span<const double>, std::vector<double>&);
+template void Implicit<2>::add_wall_stiffness();
 template void Implicit<2>::finish_walls(std::span<const double>, double);
 template void Implicit<3>::prepare();
 template void Implicit<3>::start_walls(const ActiveCells&, double);
 template void Implicit<3>::assemble_walls();
 template void Implicit<3>::add_walls(std::span<const double>, std::vector<double>&);
+template void Implicit<3>::add_wall_stiffness();
 template void Implicit<3>::finish_walls(std::span<const double>, double);
 
 }  // namespace wisp

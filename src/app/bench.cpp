@@ -294,30 +294,43 @@ void bench_splines(int points) {
 
 }  // namespace
 
-void bench(int points) {
+void bench(int points, const std::string& only) {
   if (Session::size() > 1) input_error("bench measures one rank: start it without mpirun");
   if (points < 10000)
     input_error("bench needs --points of at least 10000 (the small case has a tenth), found {}", points);
+  const auto wanted = [&](const char* part) { return only.empty() || only == part; };
   print("Times are processor times, best of several runs.\n\nYardsticks\n");
   print("  triad bandwidth {:.1f} GB/s\n", 1e-9 * triad_bandwidth());
   print("  bare kernel: beside every line below, measured in turns with the engine\n");
-  print("\nExplicit, lumped, linear elastic, with boundaries and reordering\n");
-  bench_explicit<2>(points, false);
-  bench_explicit<3>(points, false);
-  bench_explicit<2>(points, true);
-  bench_explicit<3>(points, true);
-  print(
-      "  (memory: difference of the peaks of resident memory at both sizes over the difference of points; "
-      "the peak\n"
-      "   is reset through /proc/self/clear_refs before each)\n");
-  print("\nPowell-Sabin splines, explicit, lumped\n");
-  bench_splines(points);
-  print("\nNewton\n");
-  bench_newton();
-  print("\nConsistent mass with Ghost\n");
-  bench_consistent<2>(points / 10, false);
-  bench_consistent<2>(points / 10, true);
-  bench_consistent<3>(points / 10, false);
+  if (wanted("explicit")) {
+    print("\nExplicit, lumped, linear elastic, with boundaries and reordering\n");
+    bench_explicit<2>(points, false);
+    bench_explicit<3>(points, false);
+    bench_explicit<2>(points, true);
+    bench_explicit<3>(points, true);
+    print(
+        "  (memory: difference of the peaks of resident memory at both sizes over the difference of points; "
+        "the peak\n"
+        "   is reset through /proc/self/clear_refs before each)\n");
+  }
+  if (wanted("splines")) {
+    print("\nPowell-Sabin splines, explicit, lumped\n");
+    bench_splines(points);
+  }
+  if (wanted("newton")) {
+    print("\nNewton\n");
+    bench_newton();
+  }
+  if (wanted("consistent")) {
+    print("\nConsistent mass with Ghost\n");
+    bench_consistent<2>(points / 10, false);
+    bench_consistent<2>(points / 10, true);
+    bench_consistent<3>(points / 10, false);
+  }
+  if (wanted("walls")) {
+    print("\nWalls, a footing pushed into a box (shares by the clock)\n");
+    bench_walls(points / 10);
+  }
 }
 
 }  // namespace wisp

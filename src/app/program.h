@@ -22,7 +22,7 @@ struct Engine {
   /// Goes on from the newest checkpoint in a folder. Called on every rank, within a Session.
   std::function<void(const std::filesystem::path& folder, const std::vector<std::string>& changes)> resume;
   /// Measures speed; `points` is the number of points of its largest case.
-  std::function<void(int points)> bench;
+  std::function<void(int points, const std::string& only)> bench;
   std::vector<VerificationTable> tables;
 };
 

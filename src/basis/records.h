@@ -43,7 +43,7 @@ struct LineAllocator {
   template <class U>
   LineAllocator(const LineAllocator<U>&) {}
   T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* p, std::size_t n) { ::operator delete(p, n * sizeof(T), line); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
   bool operator==(const LineAllocator&) const { return true; }
 };
 

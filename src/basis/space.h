@@ -38,9 +38,9 @@ class Space {
     if (domains_) set_width(3);
     if (!nodal()) make_splines();
   }
-  /// A basis on a triangulation. Errors (InputError): one that needs a structured grid, more than one rank.
-  Space(std::shared_ptr<const Triangulation> triangulation,
-        const AnyBasisOptions& options) requires(dim == 2);
+  /// A basis on a triangulation; for dim = 2 only (there is no other definition). Errors (InputError): one
+  /// that needs a structured grid, more than one rank.
+  Space(std::shared_ptr<const Triangulation> triangulation, const AnyBasisOptions& options);
   Space(const Space&) = delete;
   Space& operator=(const Space&) = delete;
 

@@ -46,19 +46,16 @@ template <int dim>
 WallContact<dim>::WallContact(const std::vector<Wall<dim>>& walls, const Space<dim>& space)
     : walls_(walls.begin(), walls.end()), space_(&space), cutter_(space) {
   if (walls_.empty()) return;
-  if (!space.structured())
-    input_error("boundary '{}': explicit stages have walls on structured grids only", walls_.front().name());
-  const StructuredGrid<dim>& grid = space.grid();
   // Walls without bounds come as far as the grid reaches, and as far again if they move.
-  const Vec<dim> reach = grid.upper() - grid.lower();
+  const Vec<dim> reach = space.upper() - space.lower();
   for (const auto& wall : walls_) {
     const double margin = wall.motion().moves() ? 2.0 : 0.0;
     const Vec<dim> more = margin * Vec<dim>::Constant(reach.norm());
     pieces_.push_back(
-        wall.shape().pieces(0.25 * grid.shortest_side(), {grid.lower() - more, grid.upper() + more}));
+        wall.shape().pieces(0.25 * space.shortest_side(), {space.lower() - more, space.upper() + more}));
     any_moves_ |= wall.motion().moves();
   }
-  near_.assign(at(space.window().n_cells()), 0);
+  near_.assign(at(space.n_cells()), 0);
   slot_.assign(at(space.n_functions()), -1);
   reactions_.resize(walls_.size());
   cut_walls(0.0);
@@ -94,7 +91,7 @@ template <int dim>
 void WallContact<dim>::touch(const Body<dim>& body, PointOf which, double t) {
   const auto p = at(which.point);
   const Vec<dim>& x = body.points.position[p];
-  const double h = space_->grid().shortest_side(), half = half_spacing<dim>(body.points.volume[p]);
+  const double h = space_->shortest_side(), half = half_spacing<dim>(body.points.volume[p]);
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     const auto& wall = walls_[w];
     const bool moves = wall.motion().moves();
@@ -123,14 +120,21 @@ void WallContact<dim>::touch(const Body<dim>& body, PointOf which, double t) {
   }
 }
 
+/// Number in the whole grid of the cell at x, -1 outside of the grid.
+template <int dim>
+std::int64_t WallContact<dim>::cell_number(const Vec<dim>& x) const {
+  if constexpr (dim == 2)
+    if (!space_->structured()) return space_->triangulation().locate(x);
+  MultiIndex<dim> index;
+  for (int d = 0; d < dim; ++d) index[d] = space_->grid().locate(d, x[d]);
+  return space_->window().cell_in_grid(index) ? number_in(space_->window().grid_cells(), index) : -1;
+}
+
 /// The row of a wall at a point of it; -1 if there is none (outside the grid).
 template <int dim>
 int WallContact<dim>::row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal) const {
-  const StructuredGrid<dim>& grid = space_->grid();
-  MultiIndex<dim> index;
-  for (int d = 0; d < dim; ++d) index[d] = grid.locate(d, x[d] + nudge * grid.shortest_side() * normal[d]);
-  if (!space_->window().cell_in_grid(index)) return -1;
-  const std::int64_t cell = number_in(space_->window().grid_cells(), index);
+  const std::int64_t cell = cell_number(x + nudge * space_->shortest_side() * normal);
+  if (cell < 0) return -1;
   const auto begin = cell_of_row_.begin(),
              end = begin + static_cast<std::ptrdiff_t>(first_row_[at(wall) + 1]);
   auto row = std::lower_bound(begin + static_cast<std::ptrdiff_t>(first_row_[at(wall)]), end, cell);
@@ -145,15 +149,15 @@ int WallContact<dim>::row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal
 template <int dim>
 void WallContact<dim>::choose_rows(double t, double dt) {
   live_.clear();
-  const double h = space_->grid().shortest_side();
+  states_.clear();
+  const double h = space_->shortest_side();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const double gap = gap_[r];
     if (gap > h) continue;
     const WallRow<dim>& row = rows_[r];
     const auto& wall = walls_[at(row.wall)];
     const bool reached = gap <= held_gap * h;
-    Live live;
-    live.row = static_cast<int>(r);
+    RowState<dim> live;
     live.normal = row.normal;
     live.normal_held = wall.holds_normal();
     live.pushes = wall.unilateral() || !reached;
@@ -165,7 +169,8 @@ void WallContact<dim>::choose_rows(double t, double dt) {
     live.target = wall.motion().moves() ? Vec<dim>(wall.motion().increment(row.middle, t, dt) / dt)
                                         : Vec<dim>(Vec<dim>::Zero());
     live.target += wall.prescribed(row.normal, t, dt);
-    live_.push_back(live);
+    states_.push_back(live);
+    live_.emplace_back().row = static_cast<int>(r);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "basis/space.h"
 #include "boundary/wall.h"
 #include "boundary/wall_rows.h"
+#include "boundary/wall_system.h"
 #include "parallel/session.h"
 #include "particle/body.h"
 
@@ -62,7 +63,7 @@ struct WallReaction {
 /// Walls as projections of the velocity, so that the critical time step stays that of the free body.
 ///
 /// Impulses lambda_r on the rows w_r = sum_i C_ri v_i (wall_rows.h) change the velocity by M^-1 C^T lambda.
-/// One projected Gauss-Seidel iteration over the rows of all walls finds those that make every row's velocity
+/// One iteration over the rows of all walls (wall_system.h) finds those that make every row's velocity
 /// admissible: with u = w - (velocity of the wall), u_n >= -max(gap, 0)/dt and lambda_n >= 0 where a wall
 /// only pushes, u_n = 0 where it holds, |lambda_t| <= friction lambda_n where it rubs. They are the only
 /// change of momentum. The velocity that strains the points is projected a second time, on the rows with an
@@ -98,10 +99,10 @@ class WallContact {
   /// and the rows decide by this velocity.
   void correct_strain_velocity(const StepMass& mass, std::span<double> velocity, bool alone = false);
 
-  /// For USL with linear functions: those lighter than 0.05 of a full cell take in `motion` (n_functions x
-  /// stride, velocity and acceleration) the velocity of the momentum that the points will have at the end of
-  /// the step, projected where rows carry an impulse. The points' velocity is then theirs plus dt times the
-  /// acceleration (FLIP); with dt = 0 as it is.
+  /// For USL without domains: functions lighter than 0.05 of their mass in full cells take in `motion`
+  /// (n_functions x stride, velocity and acceleration) the velocity of the momentum that the points will have
+  /// at the end of the step, projected where rows carry an impulse. The points' velocity is then theirs plus
+  /// dt times the acceleration (FLIP); with dt = 0 as it is.
   void calm_light_functions(const std::vector<Body<dim>>& bodies, const StepMass& mass, double dt,
                             std::span<double> motion, int stride);
 
@@ -115,7 +116,7 @@ class WallContact {
   double work() const { return work_; }
   /// Rows that took part in the last step, and sweeps that their impulses took.
   int n_rows() const { return static_cast<int>(live_.size()); }
-  int sweeps() const { return sweeps_; }
+  int sweeps() const { return system_.sweeps(); }
 
  private:
   struct PointOf {
@@ -126,30 +127,23 @@ class WallContact {
     double missing;  ///< m, how much too close; negative: too far from a wall that holds
     Vec<dim> normal;
   };
-  /// A row of the step.
+  /// The functions of a row of the step.
   struct Live {
     int row = 0;
-    std::array<int, WallRow<dim>::n> slot{};       ///< of its functions in `value_`
-    std::array<double, WallRow<dim>::n> weight{};  ///< over functions with mass, sum one
-    Vec<dim> normal, target;                       ///< target: velocity of the wall
-    double bias = 0.0;                             ///< least u_n
-    bool normal_held = false, tangent_held = false, pushes = false, slips = false, sticks = false;
-    double friction = 0.0;
-    Vec<dim> diagonal;  ///< of C M^-1 C^T, one a direction
-    double lambda_n = 0.0;
-    Vec<dim> lambda_t = Vec<dim>::Zero();
-
-    Vec<dim> impulse() const { return lambda_n * normal + lambda_t; }
-    bool loaded() const { return lambda_n != 0.0 || !lambda_t.isZero(0.0); }
+    std::size_t n = 0;
+    std::array<int, WallRow<dim>::max_functions> slot{};       ///< of its functions in `value_`
+    std::array<double, WallRow<dim>::max_functions> weight{};  ///< over functions with mass, sum one
   };
 
   // wall_contact_rows.cpp: rows from geometry
   void cut_walls(double t);
   void share_rows();
   void number_rows();
+  void number_rows_on_triangles();
   void mark_cells();
   // wall_contact.cpp: what points and rows mean to each other
   void touch(const Body<dim>& body, PointOf at, double t);
+  std::int64_t cell_number(const Vec<dim>& x) const;
   int row_at(int wall, const Vec<dim>& x, const Vec<dim>& normal) const;
   void choose_rows(double t, double dt);
   // wall_impulses.cpp: velocities
@@ -174,21 +168,22 @@ class WallContact {
   void take_functions(const StepMass& mass);
   void take_masses(const StepMass& mass);
   void couple(const StepMass& mass);
-  Vec<dim> row_velocity(const Live& live) const;
-  void push(std::size_t r, const Vec<dim>& impulse);
-  void iterate();
+  void couple_by_functions();
+  void take_row_velocities();
+  void find_impulses();
   void project();
-  void solve_normal(std::size_t r, double& change);
-  void solve_tangent(std::size_t r, double& change);
   void set_reactions(double dt);
   void add_row(const Live& live, const Vec<dim>& impulse, std::span<double> sum) const;
-  void spread(const StepMass& mass, std::span<const Vec<dim>> impulses, std::span<double> change);
+  void spread(const StepMass& mass, std::span<double> change);
+  void spread_lumped();
   // wall_points.cpp: points
   template <class F>
   void for_each_near_stencil(const std::vector<Body<dim>>& bodies, F&& f) const;
   bool in_window(const Vec<dim>& x) const;
   void blend(std::vector<Body<dim>>& bodies);
   void find_light_functions(const StepMass& mass, double light);
+  void mark_cells_of(int function);
+  void list_functions();
 
   std::vector<ContactWall<dim>> walls_;
   const Space<dim>* space_;
@@ -206,19 +201,26 @@ class WallContact {
   std::vector<PointOf> points_;
   std::vector<Touch> touches_;
   std::vector<Live> live_;
+  std::vector<RowState<dim>> states_;              // of the live rows
+  WallSystem<dim> system_;                         // likewise
   std::vector<int> wall_slot_, slot_, functions_;  // slots of wall functions, of functions, and back; or -1
-  std::vector<double> value_, inverse_, before_;  // over slots x dim: velocity, inverse mass, velocity before
-  std::vector<double> slot_mass_;                 // over slots: mass, then for each direction 1 if free
-  std::vector<double> momentum_;                  // over slots or light functions
+  std::vector<double> value_, inverse_;            // over slots x dim: velocity, inverse mass
+  std::vector<double> spread_;                     // likewise: what a row does to the functions
+  std::vector<std::vector<int>> rows_of_slot_;     // live rows
+  std::vector<char> seen_;                         // over live rows
+  std::vector<int> met_;
+  std::vector<double> slot_mass_;  // over slots: mass, then for each direction 1 if free
+  std::vector<double> momentum_;   // over slots or light functions
   std::vector<int> light_functions_, light_number_, light_cells_;
   std::vector<char> light_cell_;
+  std::vector<double> function_volume_;                 // of triangulations: integrals of the functions, m2
+  std::vector<std::vector<int>> triangles_of_;          // likewise: where they are not zero
   std::vector<char> loaded_;                            // over slots: of a row with an impulse
-  std::vector<Vec<dim>> row_values_, impulses_;         // consistent mass: velocities and impulses of rows
+  std::vector<Vec<dim>> impulses_;                      // of live rows
   std::vector<double> right_side_, solved_, coupling_;  // consistent mass; coupling_: rows x rows x dim
   bool consistent_ = false;
   std::vector<WallReaction<dim>> reactions_;
   double time_ = 0.0, work_ = 0.0;
-  int sweeps_ = 0;
 };
 
 extern template class WallContact<2>;

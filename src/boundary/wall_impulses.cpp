@@ -1,4 +1,4 @@
-// Impulses of walls on the velocity of the grid, by projected Gauss-Seidel.
+// Impulses of walls on the velocity of the grid.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-constexpr double tolerance = 1e-10;  // of the largest change that the first sweep asks for
-constexpr int max_sweeps = 400;
-
 }  // namespace
 
 /// Functions of the live rows get slots; weights go to functions with mass.
@@ -23,7 +20,7 @@ void WallContact<dim>::take_functions(const StepMass& mass) {
   functions_.clear();
   std::fill(wall_slot_.begin(), wall_slot_.end(), -1);
   for (const Live& live : live_)
-    for (const int i : rows_[at(live.row)].function) {
+    for (const int i : rows_[at(live.row)].functions()) {
       if (wall_slot_[at(i)] >= 0) continue;
       wall_slot_[at(i)] = static_cast<int>(functions_.size());
       if (local_[at(i)] >= 0) slot_[at(local_[at(i)])] = wall_slot_[at(i)];
@@ -36,17 +33,19 @@ void WallContact<dim>::take_functions(const StepMass& mass) {
     Live& live = live_[k];
     const WallRow<dim>& row = rows_[at(live.row)];
     double sum = 0.0;
-    for (std::size_t i = 0; i < row.function.size(); ++i) {
+    live.n = static_cast<std::size_t>(row.n);
+    for (std::size_t i = 0; i < live.n; ++i) {
       live.slot[i] = wall_slot_[at(row.function[i])];
       live.weight[i] = slot_mass_[at(live.slot[i]) * stride] > 0.0 ? row.weight[i] : 0.0;
       sum += live.weight[i];
     }
     if (!(sum > 0.0)) continue;  // no material on any of its functions
-    for (double& w : live.weight) w /= sum;
-    if (kept != k) live_[kept] = live;
+    for (std::size_t i = 0; i < live.n; ++i) live.weight[i] /= sum;
+    if (kept != k) live_[kept] = live, states_[kept] = states_[k];
     ++kept;
   }
   live_.resize(kept);
+  states_.resize(kept);
 }
 
 /// Mass and freedom of the functions with slots, from their owners.
@@ -69,29 +68,23 @@ void WallContact<dim>::take_masses(const StepMass& mass) {
       inverse_.push_back(m > 0.0 && slot_mass_[k * stride + 1 + d] != 0.0 ? 1.0 / m : 0.0);
     }
   value_.assign(functions_.size() * dim, 0.0);
+  spread_.assign(functions_.size() * dim, 0.0);
 }
 
-/// The diagonal of C M^-1 C^T, and for the consistent mass all of it, by one solve a row.
+/// C M^-1 C^T: rows that share functions, or with the consistent mass all, by one solve a row.
 template <int dim>
 void WallContact<dim>::couple(const StepMass& mass) {
   consistent_ = static_cast<bool>(mass.solve);
+  system_.clear();
+  if (!consistent_) return couple_by_functions();
   const std::size_t n = live_.size();
-  if (!consistent_) {
-    for (Live& live : live_) {
-      live.diagonal.setZero();
-      for (std::size_t i = 0; i < live.weight.size(); ++i)
-        for (int d = 0; d < dim; ++d)
-          live.diagonal[d] += live.weight[i] * live.weight[i] * inverse_[at(live.slot[i]) * dim + at(d)];
-    }
-    return;
-  }
   coupling_.assign(n * n * dim, 0.0);
   right_side_.assign(slot_.size() * dim, 0.0);
   solved_.resize(slot_.size() * dim);
   for (std::size_t r = 0; r < n; ++r) {
     const Live& live = live_[r];
     const auto set = [&](bool on) {
-      for (std::size_t i = 0; i < live.slot.size(); ++i)
+      for (std::size_t i = 0; i < live.n; ++i)
         if (const int f = functions_[at(live.slot[i])]; f >= 0)
           std::fill_n(right_side_.begin() + f * dim, dim, on ? live.weight[i] : 0.0);
     };
@@ -100,140 +93,104 @@ void WallContact<dim>::couple(const StepMass& mass) {
     mass.solve(right_side_, solved_);
     set(false);
     for (std::size_t s = 0; s < n; ++s)
-      for (std::size_t i = 0; i < live_[s].slot.size(); ++i)
+      for (std::size_t i = 0; i < live_[s].n; ++i)
         if (const int f = functions_[at(live_[s].slot[i])]; f >= 0 && space_->nodes().owns(f))
           for (std::size_t d = 0; d < dim; ++d)
             coupling_[(r * n + s) * dim + d] += live_[s].weight[i] * solved_[at(f) * dim + d];
   }
   if (Session::size() > 1) Session::sum_in_place(coupling_);
-  for (std::size_t r = 0; r < n; ++r)
-    for (int d = 0; d < dim; ++d) live_[r].diagonal[d] = coupling_[(r * n + r) * dim + at(d)];
-}
-
-template <int dim>
-Vec<dim> WallContact<dim>::row_velocity(const Live& live) const {
-  Vec<dim> w = Vec<dim>::Zero();
-  for (std::size_t i = 0; i < live.weight.size(); ++i)
-    for (int d = 0; d < dim; ++d) w[d] += live.weight[i] * value_[at(live.slot[i]) * dim + at(d)];
-  return w;
-}
-
-/// An impulse on a row; `value_` or `row_values_` follow.
-template <int dim>
-void WallContact<dim>::push(std::size_t r, const Vec<dim>& impulse) {
-  if (!consistent_) {
-    const Live& live = live_[r];
-    for (std::size_t i = 0; i < live.weight.size(); ++i)
-      for (int d = 0; d < dim; ++d) {
-        const std::size_t k = at(live.slot[i]) * dim + at(d);
-        value_[k] += live.weight[i] * inverse_[k] * impulse[d];
-      }
-    return;
+  for (std::size_t r = 0; r < n; ++r) {
+    for (std::size_t s = 0; s < n; ++s)
+      system_.add(static_cast<int>(s), Eigen::Map<const Vec<dim>>(coupling_.data() + (r * n + s) * dim));
+    system_.end_row();
   }
-  const std::size_t n = live_.size();
-  for (std::size_t s = 0; s < n; ++s)
-    for (int d = 0; d < dim; ++d) row_values_[s][d] += coupling_[(r * n + s) * dim + at(d)] * impulse[d];
 }
 
 template <int dim>
-void WallContact<dim>::solve_normal(std::size_t r, double& change) {
-  Live& live = live_[r];
-  const double a = live.diagonal.dot(live.normal.cwiseAbs2());
-  if (!live.normal_held || !(a > 0.0)) return;
-  const Vec<dim> u = (consistent_ ? row_values_[r] : row_velocity(live)) - live.target;
-  double lambda = live.lambda_n - (u.dot(live.normal) - live.bias) / a;
-  if (live.pushes) lambda = std::max(0.0, lambda);
-  const double step = lambda - live.lambda_n;
-  if (step == 0.0) return;
-  live.lambda_n = lambda;
-  push(r, step * live.normal);
-  change = std::max(change, std::abs(step) * a);
-}
-
-template <int dim>
-void WallContact<dim>::solve_tangent(std::size_t r, double& change) {
-  Live& live = live_[r];
-  const double a = live.diagonal.maxCoeff();
-  if (!live.tangent_held || !(a > 0.0)) return;
-  const Vec<dim> u = (consistent_ ? row_values_[r] : row_velocity(live)) - live.target;
-  Vec<dim> lambda = live.lambda_t - (u - u.dot(live.normal) * live.normal) / a;
-  live.sticks = true;
-  if (live.slips) {  // Coulomb
-    const double most = live.friction * std::abs(live.lambda_n), size = lambda.norm();
-    if (size > most) lambda *= most / size, live.sticks = false;
-  } else if (live.normal_held && live.pushes && live.lambda_n == 0.0) {
-    lambda.setZero(), live.sticks = false;
-  }
-  const Vec<dim> step = lambda - live.lambda_t;
-  if (step.isZero(0.0)) return;
-  live.lambda_t = lambda;
-  push(r, step);
-  change = std::max(change, step.norm() * a);
-}
-
-/// From zero impulses, back and forth over the rows.
-template <int dim>
-void WallContact<dim>::iterate() {
-  double first = 0.0;
-  sweeps_ = 0;
-  const std::size_t n = live_.size();
-  for (double change = 1.0; sweeps_ < max_sweeps && change > tolerance * first; ++sweeps_) {
-    change = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t r = sweeps_ % 2 ? n - 1 - k : k;
-      solve_normal(r, change);
-      solve_tangent(r, change);
+void WallContact<dim>::couple_by_functions() {
+  if (rows_of_slot_.size() < functions_.size()) rows_of_slot_.resize(functions_.size());
+  for (auto& rows : rows_of_slot_) rows.clear();
+  for (std::size_t r = 0; r < live_.size(); ++r)
+    for (std::size_t i = 0; i < live_[r].n; ++i)
+      if (live_[r].weight[i] != 0.0) rows_of_slot_[at(live_[r].slot[i])].push_back(static_cast<int>(r));
+  seen_.assign(live_.size(), 0);
+  for (const Live& live : live_) {
+    met_.clear();
+    for (std::size_t i = 0; i < live.n; ++i) {
+      if (live.weight[i] == 0.0) continue;
+      for (const int s : rows_of_slot_[at(live.slot[i])])
+        if (!seen_[at(s)]) seen_[at(s)] = 1, met_.push_back(s);
+      for (int d = 0; d < dim; ++d)
+        spread_[at(live.slot[i]) * dim + at(d)] = live.weight[i] * inverse_[at(live.slot[i]) * dim + at(d)];
     }
-    first = std::max(first, change);
-    if (change == 0.0) break;
+    for (const int s : met_) {
+      seen_[at(s)] = 0;
+      const Live& other = live_[at(s)];
+      Vec<dim> a = Vec<dim>::Zero();
+      for (std::size_t j = 0; j < other.n; ++j)
+        a += other.weight[j] * Eigen::Map<const Vec<dim>>(spread_.data() + at(other.slot[j]) * dim);
+      system_.add(s, a);
+    }
+    system_.end_row();
+    for (std::size_t i = 0; i < live.n; ++i) std::fill_n(spread_.begin() + live.slot[i] * dim, dim, 0.0);
   }
 }
 
-/// The velocity that strains: equalities on the rows that carry an impulse, by corrections that are
-/// forgotten.
+template <int dim>
+void WallContact<dim>::take_row_velocities() {
+  auto& velocity = system_.velocity();
+  velocity.assign(live_.size(), Vec<dim>::Zero());
+  for (std::size_t r = 0; r < live_.size(); ++r)
+    for (std::size_t i = 0; i < live_[r].n; ++i)
+      velocity[r] +=
+          live_[r].weight[i] * Eigen::Map<const Vec<dim>>(value_.data() + at(live_[r].slot[i]) * dim);
+}
+
+/// `value_` made admissible on the rows that carry an impulse.
 template <int dim>
 void WallContact<dim>::project() {
-  double first = 0.0;
-  const std::size_t n = live_.size();
-  int sweep = 0;
-  for (double change = 1.0; sweep < max_sweeps && change > tolerance * first; ++sweep) {
-    change = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t r = sweep % 2 ? n - 1 - k : k;
-      const Live& live = live_[r];
-      if (!live.loaded()) continue;
-      const Vec<dim> u = (consistent_ ? row_values_[r] : row_velocity(live)) - live.target;
-      const double un = u.dot(live.normal), an = live.diagonal.dot(live.normal.cwiseAbs2()),
-                   at_most = live.diagonal.maxCoeff();
-      Vec<dim> step = Vec<dim>::Zero();
-      if (live.normal_held && an > 0.0) step -= (un - live.bias) / an * live.normal;
-      if (live.tangent_held && live.sticks && at_most > 0.0) step -= (u - un * live.normal) / at_most;
-      if (step.isZero(0.0)) continue;
-      if (!impulses_.empty()) impulses_[r] += step;
-      push(r, step);
-      change = std::max(change, step.norm() * at_most);
-    }
-    first = std::max(first, change);
-    if (change == 0.0) break;
+  take_row_velocities();
+  impulses_.assign(live_.size(), Vec<dim>::Zero());
+  system_.project(states_, impulses_);
+  if (!consistent_) spread_lumped();
+}
+
+/// `value_` changes by M^-1 C^T impulses.
+template <int dim>
+void WallContact<dim>::spread_lumped() {
+  for (std::size_t r = 0; r < live_.size(); ++r) {
+    if (impulses_[r].isZero(0.0)) continue;
+    for (std::size_t i = 0; i < live_[r].n; ++i)
+      for (int d = 0; d < dim; ++d) {
+        const std::size_t k = at(live_[r].slot[i]) * dim + at(d);
+        value_[k] += live_[r].weight[i] * inverse_[k] * impulses_[r][d];
+      }
   }
 }
 
 /// C^T impulse of one row.
 template <int dim>
 void WallContact<dim>::add_row(const Live& live, const Vec<dim>& impulse, std::span<double> sum) const {
-  for (std::size_t i = 0; i < live.slot.size(); ++i)
+  for (std::size_t i = 0; i < live.n; ++i)
     if (const int f = functions_[at(live.slot[i])]; f >= 0)
       for (int d = 0; d < dim; ++d) sum[at(f) * dim + at(d)] += live.weight[i] * impulse[d];
 }
 
 /// M^-1 C^T impulses over all functions.
 template <int dim>
-void WallContact<dim>::spread(const StepMass& mass, std::span<const Vec<dim>> impulses,
-                              std::span<double> change) {
+void WallContact<dim>::spread(const StepMass& mass, std::span<double> change) {
   std::fill(right_side_.begin(), right_side_.end(), 0.0);
-  for (std::size_t r = 0; r < live_.size(); ++r) add_row(live_[r], impulses[r], right_side_);
+  for (std::size_t r = 0; r < live_.size(); ++r) add_row(live_[r], impulses_[r], right_side_);
   std::fill(change.begin(), change.end(), 0.0);
   mass.solve(right_side_, change);
+}
+
+template <int dim>
+void WallContact<dim>::find_impulses() {
+  take_row_velocities();
+  system_.find(states_);
+  impulses_.resize(live_.size());
+  for (std::size_t r = 0; r < live_.size(); ++r) impulses_[r] = states_[r].impulse();
 }
 
 template <int dim>
@@ -243,19 +200,14 @@ void WallContact<dim>::correct_velocity(const StepMass& mass, std::span<const do
   couple(mass);
   take_values(
       [&](std::size_t f, std::size_t d) { return velocity[f * dim + d] + dt * acceleration[f * dim + d]; });
+  find_impulses();
   if (!consistent_) {
-    before_ = value_;
-    iterate();
-    give_values([&](std::size_t f, std::size_t d, std::size_t k) {
-      acceleration[f * dim + d] += (value_[k] - before_[k]) / dt;
-    });
+    value_.assign(value_.size(), 0.0);
+    spread_lumped();
+    give_values(
+        [&](std::size_t f, std::size_t d, std::size_t k) { acceleration[f * dim + d] += value_[k] / dt; });
   } else if (!live_.empty()) {
-    row_values_.resize(live_.size());
-    for (std::size_t r = 0; r < live_.size(); ++r) row_values_[r] = row_velocity(live_[r]);
-    iterate();
-    impulses_.resize(live_.size());
-    for (std::size_t r = 0; r < live_.size(); ++r) impulses_[r] = live_[r].impulse();
-    spread(mass, impulses_, solved_);
+    spread(mass, solved_);
     for (std::size_t k = 0; k < acceleration.size(); ++k) acceleration[k] += solved_[k] / dt;
   }
   set_reactions(dt);
@@ -266,10 +218,9 @@ void WallContact<dim>::set_reactions(double dt) {
   for (auto& reaction : reactions_) reaction = {};
   work_ = 0.0;
   for (std::size_t r = 0; r < live_.size(); ++r) {
-    const Live& live = live_[r];
-    if (!live.loaded()) continue;
-    const WallRow<dim>& row = rows_[at(live.row)];
-    const Vec<dim> impulse = live.impulse(), force = impulse / dt;
+    if (!states_[r].loaded()) continue;
+    const WallRow<dim>& row = rows_[at(live_[r].row)];
+    const Vec<dim> impulse = states_[r].impulse(), force = impulse / dt;
     WallReaction<dim>& reaction = reactions_[at(row.wall)];
     reaction.force += force;
     const Vec<dim> arm = row.middle - walls_[at(row.wall)].motion().centre(time_);
@@ -278,14 +229,14 @@ void WallContact<dim>::set_reactions(double dt) {
     else
       reaction.moment += Vec<3>(arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
                                 arm[0] * force[1] - arm[1] * force[0]);
-    work_ += impulse.dot(consistent_ ? row_values_[r] : row_velocity(live));
+    work_ += impulse.dot(system_.velocity()[r]);
   }
 }
 
 template <int dim>
 void WallContact<dim>::add_force(double dt, std::span<double> force) const {
-  for (const Live& live : live_)
-    if (live.loaded()) add_row(live, live.impulse() / dt, force);
+  for (std::size_t r = 0; r < live_.size(); ++r)
+    if (states_[r].loaded()) add_row(live_[r], states_[r].impulse() / dt, force);
 }
 
 template <int dim>
@@ -296,22 +247,15 @@ void WallContact<dim>::correct_strain_velocity(const StepMass& mass, std::span<d
   }
   if (live_.empty()) return;
   take_values([&](std::size_t f, std::size_t d) { return velocity[f * dim + d]; });
-  if (consistent_) {
-    row_values_.resize(live_.size());
-    for (std::size_t r = 0; r < live_.size(); ++r) row_values_[r] = row_velocity(live_[r]);
-    impulses_.assign(live_.size(), Vec<dim>::Zero());
-  }
   if (alone) {
-    iterate();
-    for (std::size_t r = 0; r < live_.size(); ++r) {
-      if (consistent_) impulses_[r] = live_[r].impulse();
-      live_[r].lambda_n = 0.0, live_[r].lambda_t.setZero(), live_[r].sticks = false;
-    }
+    find_impulses();
+    if (!consistent_) spread_lumped();
+    for (auto& state : states_) state.lambda_n = 0.0, state.lambda_t.setZero(), state.sticks = false;
   } else {
     project();
   }
   if (consistent_) {
-    spread(mass, impulses_, solved_);
+    spread(mass, solved_);
     for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += solved_[k];
     return;
   }

@@ -19,6 +19,7 @@ constexpr double light_share = 0.05;  // of the mass of a full cell
 template <int dim>
 bool WallContact<dim>::in_window(const Vec<dim>& x) const {
   if (!x.allFinite()) return false;
+  if (!space_->structured()) return space_->contains(x);
   const StructuredGrid<dim>& grid = space_->grid();
   MultiIndex<dim> cell;
   for (int d = 0; d < dim; ++d) {
@@ -48,28 +49,77 @@ void WallContact<dim>::for_each_near_stencil(const std::vector<Body<dim>>& bodie
       space_->basis());
 }
 
-/// Functions lighter than `light` get numbers; the cells around them are marked.
+/// Of triangulations: integrals of all functions, by the midpoints of edges (of sub-triangles of split ones),
+/// and the triangles of each.
+template <int dim>
+void WallContact<dim>::list_functions() {
+  if constexpr (dim == 2) {
+    function_volume_.assign(slot_.size(), 0.0);
+    triangles_of_.assign(slot_.size(), {});
+    visit_on_triangles(*space_, [&](const auto& basis) {
+      const Triangulation& mesh = basis.triangulation();
+      const auto add = [&](int t, int sub, const std::array<Vec<2>, 3>& v) {
+        const Vec<2> a = v[1] - v[0], b = v[2] - v[0];
+        const double share = 0.5 * std::abs(a[0] * b[1] - a[1] * b[0]) / 3.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto f = triangle_functions(*space_, t, sub, 0.5 * (v[k] + v[(k + 1) % 3]));
+          for (std::size_t i = 0; i < static_cast<std::size_t>(f.n); ++i)
+            function_volume_[at(f.function[i])] += share * f.phi[i];
+        }
+      };
+      for (int t = 0; t < mesh.n_triangles(); ++t) {
+        for (const int i : basis.functions(t)) triangles_of_[at(i)].push_back(t);
+        if constexpr (requires { basis.split(); }) {
+          for (int edge = 0; edge < 3; ++edge)
+            for (int side = 0; side < 2; ++side)
+              add(t, 2 * edge + side,
+                  {mesh.corner(t, (edge + side) % 3), basis.split().edge_point(mesh.edge(t, edge)),
+                   basis.split().centre(t)});
+        } else {
+          add(t, 0, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+        }
+      }
+    });
+  }
+}
+
+/// The cells in which a function is not zero.
+template <int dim>
+void WallContact<dim>::mark_cells_of(int function) {
+  const auto mark = [&](int c) {
+    if (!light_cell_[at(c)]) light_cell_[at(c)] = 1, light_cells_.push_back(c);
+  };
+  if (!space_->structured()) {
+    for (const int t : triangles_of_[at(function)]) mark(t);
+    return;
+  }
+  const auto& window = space_->window();
+  const MultiIndex<dim> node = window.node_multi_index(function);
+  for_each_in(IndexBox<dim>{node - MultiIndex<dim>::Ones(), node + MultiIndex<dim>::Ones()},
+              [&](const MultiIndex<dim>& cell) {
+                if (window.contains_cell(cell)) mark(window.cell_index(cell));
+              });
+}
+
+/// Functions whose mass over their volume in full cells is less than `light` (kg/m3, kg/m2) get numbers; the
+/// cells around them are marked.
 template <int dim>
 void WallContact<dim>::find_light_functions(const StepMass& mass, double light) {
-  const auto& window = space_->window();
   for (const int f : light_functions_) light_number_[at(f)] = -1;
   for (const int c : light_cells_) light_cell_[at(c)] = 0;
   light_functions_.clear();
   light_cells_.clear();
   light_number_.resize(slot_.size(), -1);
-  light_cell_.resize(at(window.n_cells()), 0);
+  light_cell_.resize(at(space_->n_cells()), 0);
+  const bool triangles = !space_->structured();
+  if (triangles && triangles_of_.empty()) list_functions();
+  const double cell = std::pow(space_->shortest_side(), dim);
   for (std::size_t f = 0; f < slot_.size(); ++f) {
     const double m = mass.sums[f * at(mass.stride)];
-    if (!(m > 0.0) || m >= light) continue;
+    if (!(m > 0.0) || m >= light * (triangles ? function_volume_[f] : cell)) continue;
     light_number_[f] = static_cast<int>(light_functions_.size());
     light_functions_.push_back(static_cast<int>(f));
-    const MultiIndex<dim> node = window.node_multi_index(static_cast<int>(f));
-    for_each_in(IndexBox<dim>{node - MultiIndex<dim>::Ones(), node + MultiIndex<dim>::Ones()},
-                [&](const MultiIndex<dim>& cell) {
-                  if (!window.contains_cell(cell)) return;
-                  const int c = window.cell_index(cell);
-                  if (!light_cell_[at(c)]) light_cell_[at(c)] = 1, light_cells_.push_back(c);
-                });
+    mark_cells_of(static_cast<int>(f));
   }
 }
 
@@ -78,7 +128,7 @@ void WallContact<dim>::calm_light_functions(const std::vector<Body<dim>>& bodies
                                             double dt, std::span<double> motion, int stride) {
   double density = 0.0;
   for (const auto& body : bodies) density = std::max(density, body.density());
-  find_light_functions(mass, light_share * density * std::pow(space_->grid().shortest_side(), dim));
+  find_light_functions(mass, light_share * density);
   if (!Session::any_of(!light_functions_.empty())) return;
   momentum_.assign(light_functions_.size() * dim, 0.0);
   std::visit(
@@ -140,9 +190,9 @@ template <int dim>
 void WallContact<dim>::blend(std::vector<Body<dim>>& bodies) {
   loaded_.assign(functions_.size(), 0);
   bool any = false;
-  for (const Live& live : live_)
-    if (live.loaded())
-      for (const int s : live.slot) loaded_[at(s)] = 1, any = true;
+  for (std::size_t r = 0; r < live_.size(); ++r)
+    if (states_[r].loaded())
+      for (std::size_t i = 0; i < live_[r].n; ++i) loaded_[at(live_[r].slot[i])] = 1, any = true;
   if (!any) return;
   constexpr std::size_t stride = 1 + dim;
   momentum_.assign(functions_.size() * stride, 0.0);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/wall_host.h"
+
 namespace wisp {
 namespace {
 
@@ -16,7 +18,37 @@ constexpr double one_row = 0.94;
 }  // namespace
 
 template <int dim>
+void WallRow<dim>::add(int i, double w) {
+  const auto end = function.begin() + n;
+  const auto it = std::find(function.begin(), end, i);
+  if (it == end) *it = i, ++n;
+  weight[static_cast<std::size_t>(it - function.begin())] += w;
+}
+
+/// The parts of a piece in triangles, and in sub-triangles of split ones, which share a row.
+template <int dim>
+void WallCutter<dim>::add_on_triangles(const WallPiece<dim>& piece) {
+  if constexpr (dim == 2) {
+    cut_.clear();
+    cut_piece(*space_, piece, cut_);
+    for (const auto& of : cut_.parts) {
+      if (of.host[0] < 0) continue;
+      Part part{of.host[0], static_cast<int>(parts_.size()), piece.normal, {}};
+      for (std::size_t q = of.first; q < of.first + of.count; ++q) {
+        const double w = cut_.weight[q];
+        const CellFunctions<2> f = triangle_functions(*space_, of.host[0], of.host[1], cut_.position[q]);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(f.n); ++i)
+          part.row.add(f.function[i], w * f.phi[i]);
+        part.row.middle += w * cut_.position[q], part.row.size += w;
+      }
+      parts_.push_back(part);
+    }
+  }
+}
+
+template <int dim>
 void WallCutter<dim>::add(const WallPiece<dim>& piece) {
+  if (!space_->structured()) return add_on_triangles(piece);
   Convex shape;
   shape.n = dim;
   for (std::size_t k = 0; k < dim; ++k) shape.vertex[k] = piece.vertex[k];
@@ -78,24 +110,30 @@ void WallCutter<dim>::add_point(const Vec<dim>& x, double weight, const MultiInd
   for (int d = 0; d < dim; ++d)
     r[static_cast<std::size_t>(d)] = std::clamp(
         (x[d] - space_->grid().line(d, cell[d])) * space_->grid().per_spacing(d)[cell[d]], 0.0, 1.0);
-  for (std::size_t k = 0; k < part.weight.size(); ++k) {
+  for (std::size_t k = 0; k < WallRow<dim>::corners; ++k) {
     double phi = weight;
     for (std::size_t d = 0; d < dim; ++d) phi *= (k >> d) & 1 ? r[d] : 1.0 - r[d];
-    part.weight[k] += phi;
+    part.row.weight[k] += phi;
   }
-  part.first += weight * x;
+  part.row.middle += weight * x;
 }
 
 template <int dim>
 void WallCutter<dim>::integrate(const Convex& shape, const MultiIndex<dim>& cell, const Vec<dim>& normal) {
   const auto& window = space_->window();
   if (!window.contains_cell(cell)) return;
-  Part part{window.cell_index(cell), static_cast<int>(parts_.size()), normal, Vec<dim>::Zero(), {}, 0.0};
+  Part part{window.cell_index(cell), static_cast<int>(parts_.size()), normal, {}};
+  part.row.n = WallRow<dim>::corners;
+  for (int i = 0; i < part.row.n; ++i) {
+    MultiIndex<dim> node = cell;
+    for (int d = 0; d < dim; ++d) node[d] += (i >> d) & 1;
+    part.row.function[static_cast<std::size_t>(i)] = window.node_index(node);
+  }
   const auto& v = shape.vertex;
   if constexpr (dim == 2) {
     // Two Gauss points: the functions are quadratic along a segment.
     const double length = (v[1] - v[0]).norm(), g = 0.5 / std::sqrt(3.0);
-    part.size = length;
+    part.row.size = length;
     for (const double s : {0.5 - g, 0.5 + g}) add_point(v[0] + s * (v[1] - v[0]), 0.5 * length, cell, part);
   } else {
     // A fan of triangles; six points, exact to degree 4 (Dunavant 1985): the functions are cubic on a plane.
@@ -103,7 +141,7 @@ void WallCutter<dim>::integrate(const Convex& shape, const MultiIndex<dim>& cell
                      w[2] = {0.223381589678011, 0.109951743655322};
     for (std::size_t k = 2; k < shape.n; ++k) {
       const double area = 0.5 * (v[k - 1] - v[0]).cross(v[k] - v[0]).norm();
-      part.size += area;
+      part.row.size += area;
       for (int s = 0; s < 2; ++s)
         for (int corner = 0; corner < 3; ++corner) {
           double l[3] = {a[s], a[s], a[s]};
@@ -113,7 +151,7 @@ void WallCutter<dim>::integrate(const Convex& shape, const MultiIndex<dim>& cell
     }
   }
   const double h = space_->grid().shortest_side();
-  if (part.size > rounding * (dim == 2 ? h : h * h)) parts_.push_back(part);
+  if (part.row.size > rounding * (dim == 2 ? h : h * h)) parts_.push_back(part);
 }
 
 template <int dim>
@@ -121,7 +159,6 @@ void WallCutter<dim>::finish(int wall, std::vector<WallRow<dim>>& rows) {
   std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.order < b.order;
   });
-  const auto& window = space_->window();
   std::size_t first_of_cell = rows.size();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Part& part = parts_[k];
@@ -133,10 +170,11 @@ void WallCutter<dim>::finish(int wall, std::vector<WallRow<dim>>& rows) {
       rows[r].wall = wall, rows[r].cell = part.cell;
     }
     WallRow<dim>& row = rows[r];
-    for (std::size_t i = 0; i < row.weight.size(); ++i) row.weight[i] += part.weight[i];
-    row.middle += part.first;
-    row.normal += part.size * part.normal;
-    row.size += part.size;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(part.row.n); ++i)
+      row.add(part.row.function[i], part.row.weight[i]);
+    row.middle += part.row.middle;
+    row.normal += part.row.size * part.normal;
+    row.size += part.row.size;
   }
   for (auto row = rows.rbegin(); row != rows.rend() && row->wall == wall; ++row) {
     double sum = 0.0;
@@ -144,16 +182,12 @@ void WallCutter<dim>::finish(int wall, std::vector<WallRow<dim>>& rows) {
     for (double& w : row->weight) w /= sum;
     row->middle /= row->size;
     row->normal.normalize();
-    const MultiIndex<dim> cell = window.cell_multi_index(row->cell);
-    for (int i = 0; i < WallRow<dim>::n; ++i) {
-      MultiIndex<dim> node = cell;
-      for (int d = 0; d < dim; ++d) node[d] += (i >> d) & 1;
-      row->function[static_cast<std::size_t>(i)] = window.node_index(node);
-    }
   }
   parts_.clear();
 }
 
+template struct WallRow<2>;
+template struct WallRow<3>;
 template class WallCutter<2>;
 template class WallCutter<3>;
 

@@ -1,26 +1,35 @@
 // A wall cut by the cells of the grid: one row of weights for each wall and host cell.
 #pragma once
 #include <array>
+#include <span>
 #include <vector>
 
-#include "basis/space.h"
+#include "basis/trace.h"
+#include "boundary/wall_cut.h"
 #include "geometry/wall_piece.h"
 
 namespace wisp {
 
-/// Mean over the part of a wall in one cell: w(u) = sum_i weight_i u_i is the mean of a field of linear
-/// functions there, weight_i = (1/size) int N_i ds. Linear whatever the basis, so that a row has the
-/// functions of its own cell only. At a corner inside a cell each side has a row of its own.
+/// Mean over the part of a wall in one cell: w(u) = sum_i weight_i u_i is the mean of a field there, weight_i
+/// = (1/size) int N_i ds. On structured grids N_i are the linear functions, also with GIMP, so that a row has
+/// the functions of its own cell only; on triangulations those of the basis. At a corner inside a cell each
+/// side has a row of its own. The first `n` entries count.
 template <int dim>
 struct WallRow {
-  static constexpr int n = 1 << dim;
-  int wall = 0;                        ///< index among the walls
-  int cell = 0;                        ///< local number of the host cell
-  std::array<int, n> function{};       ///< local indices
-  std::array<double, n> weight{};      ///< sum to one
-  Vec<dim> normal = Vec<dim>::Zero();  ///< mean, unit, into the solid side
-  Vec<dim> middle = Vec<dim>::Zero();  ///< m, centroid of the part
-  double size = 0.0;                   ///< m (2D), m2 (3D)
+  static constexpr int corners = 1 << dim;
+  static constexpr int max_functions = CellFunctions<dim>::max_functions;
+  int wall = 0;  ///< index among the walls
+  int cell = 0;  ///< local number of the host cell or triangle
+  int n = 0;
+  std::array<int, max_functions> function{};   ///< local indices
+  std::array<double, max_functions> weight{};  ///< sum to one
+  Vec<dim> normal = Vec<dim>::Zero();          ///< mean, unit, into the solid side
+  Vec<dim> middle = Vec<dim>::Zero();          ///< m, centroid of the part
+  double size = 0.0;                           ///< m (2D), m2 (3D)
+
+  std::span<const int> functions() const { return {function.data(), static_cast<std::size_t>(n)}; }
+  /// Adds to the weight of a function.
+  void add(int i, double w);
 };
 
 /// Cuts pieces by the cells of a rank's window. Arrays keep their capacity from call to call.
@@ -45,16 +54,17 @@ class WallCutter {
   };
   struct Part {
     int cell, order;
-    Vec<dim> normal, first;                      ///< first: integral of the position
-    std::array<double, WallRow<dim>::n> weight;  ///< integrals of the functions
-    double size;
+    Vec<dim> normal;
+    WallRow<dim> row;  ///< integrals of the functions and of the position, not yet divided by the size
   };
   void cut(const Convex& shape, int direction, MultiIndex<dim> cell, const Vec<dim>& normal);
   void integrate(const Convex& shape, const MultiIndex<dim>& cell, const Vec<dim>& normal);
   void add_point(const Vec<dim>& x, double weight, const MultiIndex<dim>& cell, Part& part) const;
+  void add_on_triangles(const WallPiece<dim>& piece);
 
   const Space<dim>* space_;
   std::vector<Part> parts_;
+  WallCut<dim> cut_;
 };
 
 extern template class WallCutter<2>;

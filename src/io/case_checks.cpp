@@ -441,9 +441,6 @@ class Checks {
       context_.fail_at(at("updated_gradients"), "only for stress_update = \"usf\"");
     const auto is_wall = [](const AnyBoundaryOptions& b) { return std::holds_alternative<WallOptions>(b); };
     const bool walls = std::any_of(case_.boundaries.begin(), case_.boundaries.end(), is_wall);
-    if (walls && !grid_)
-      context_.fail_at(place("stage", i, "type"),
-                       "explicit stages have walls on structured grids only; on triangles hold a named part");
     if (e.integration == Integration::reconstructed_mass && walls)
       context_.fail_at(at("integration"),
                        "\"reconstructed-mass\" has no walls: their rows use the points' mass");

@@ -268,6 +268,10 @@ SolveReport MassSolver::factorise_and_solve(std::span<const double> b, std::span
 SolveReport MassSolver::solve(std::span<const double> b, std::span<double> x) {
   if (!mass_) run_error("a mass solver was used before it was given a matrix");
   if (options_.solver == SolverKind::direct) return factorise_and_solve(b, x);
+  if (direct_left_ > 0) {
+    --direct_left_;
+    return factorise_and_solve(b, x);
+  }
   guess_.assign(x.begin(), x.end());
   SolveReport report;
   switch (columns_) {
@@ -284,7 +288,11 @@ SolveReport MassSolver::solve(std::span<const double> b, std::span<double> x) {
       report = iterate<4>(b, x);
       break;
   }
+  if (report.solved) direct_next_ = 1;
   if (report.solved || options_.solver == SolverKind::iterative) return report;
+  constexpr int most = 64;
+  direct_left_ = direct_next_;
+  direct_next_ = std::min(2 * direct_next_, most);
   std::copy(guess_.begin(), guess_.end(), x.begin());
   return factorise_and_solve(b, x);
 }

@@ -24,7 +24,8 @@ struct MassSolverOptions {
   static constexpr auto keys() {
     return std::tuple{
         key("solver", &MassSolverOptions::solver, "",
-            "auto: conjugate gradients, and a sparse factorisation where they do not converge"),
+            "auto: conjugate gradients, and a sparse factorisation where they do not converge (then for a "
+            "number of solves at once)"),
         key("tolerance", &MassSolverOptions::tolerance, "-",
             "residual relative to the right-hand side, in the norm of the inverse of the diagonal")
             .positive()
@@ -99,6 +100,9 @@ class MassSolver {
   std::vector<char> fixed_;      // n_local x columns
   std::vector<double> mask_;     // compact x columns: 1 at free unknowns that this rank owns
   std::vector<double> inverse_;  // compact: inverse of the diagonal
+  // Where conjugate gradients failed they mostly fail again: the next solves go direct at once, twice as many
+  // after each failure in a row.
+  int direct_left_ = 0, direct_next_ = 1;
   std::vector<double> guess_, b_, x_, r_, p_, ap_, local_;
   std::vector<std::unique_ptr<Factor>> factors_;
 };

@@ -209,12 +209,5 @@ TEST(TriangleWalls, AWallThatMovesThroughTrianglesKeepsHolding) {
   }
 }
 
-TEST(TriangleWalls, ExplicitStagesSayThatTheyHaveNone) {
-  ModelOptions o = square(elastic(), LinearOptions{}, false);
-  add_wall(o, "support", {0, 1}, {0, 0}, WallKind::roller);
-  Model<2> model(o);
-  EXPECT_THROW(Explicit<2>(model, explicit_steps(1e-4)), InputError);
-}
-
 }  // namespace
 }  // namespace wisp

@@ -3,37 +3,21 @@
 
 #include <fstream>
 
-#include "core/error.h"
 #include "grid/triangulate.h"
-#include "io/case.h"
+#include "io/malformed.h"
 #include "io/temporary_folder.h"
 
 namespace wisp {
 namespace {
 
-/// What a good case is changed by: the first occurrence of a text in its case file or in its mesh or surface.
-struct Change {
-  const char* what;
-  const char* with;
-  const char* message;
-};
-
-std::string changed(std::string text, const Change& change) {
-  const auto at = text.find(change.what);
-  if (at == std::string::npos) return "the good text has no such part";
-  return text.replace(at, std::string(change.what).size(), change.with);
-}
+using test::Change;
+using test::changed;
 
 /// Writes the file that the case names and reads the case; the message without the folder's name.
 std::string complaint(const std::string& text, const std::string& file_name, const std::string& file) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / file_name, std::ios::binary) << file;
-  std::string message = "(no error)";
-  try {
-    read_case(CaseSource{"case.toml", folder.path(), text, {}});
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  std::string message = test::complaint(text, folder.path());
   const std::string path = folder.path().string() + "/";
   for (auto at = message.find(path); at != std::string::npos; at = message.find(path))
     message.erase(at, path.size());
@@ -293,11 +277,6 @@ const Change cases_on_triangles[] = {
     {"type = \"box\"\nlower = [0.25, 0.0]\nupper = [0.75, 0.5]",
      "type = \"mesh\"\nfile = \"square.msh\"\nsurface = \"sand\"",
      "case.toml:7:1: [body.shape] the triangulation has no boundary 'sand'; valid: base, soil"},
-    {"name = \"floor\"\npart = \"base\"\ndirections = [\"x\", \"y\"]",
-     "type = \"wall\"\nname = \"floor\"\nshape = { type = \"plane\", point = [0.0, 0.1], normal = [0.0, 1.0] "
-     "}",
-     "case.toml:20:8: [stage] type: explicit stages have walls on structured grids only; on triangles hold a "
-     "named part"},
     {"name = \"soil\"", "name = \"soil\"\nsampling = { method = \"random\", clip = true }",
      "case.toml:7:12: [body.sampling] points on triangles are cut with method \"cells\" or \"gauss\" only"},
     {"name = \"soil\"", "name = \"soil\"\nsampling = { clip = true, volumes = \"voronoi\" }",

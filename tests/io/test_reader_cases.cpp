@@ -6,8 +6,7 @@
 
 #include <filesystem>
 
-#include "core/error.h"
-#include "io/case.h"
+#include "io/malformed.h"
 
 namespace wisp {
 namespace {
@@ -83,27 +82,13 @@ body = "right"
 nearest = [3.5, 1.0]
 )";
 
+using test::Change;
+
 std::string complaint(const std::string& text) {
-  try {
-    read_case(CaseSource{"case.toml", std::filesystem::path(WISP_SOURCE_DIR) / "tests/io", text, {}});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "(no error)";
+  return test::complaint(text, std::filesystem::path(WISP_SOURCE_DIR) / "tests/io");
 }
 
-struct Change {
-  const char* what;  ///< text of the good case, its first occurrence
-  const char* with;
-  const char* message;
-};
-
-std::string changed(const Change& change) {
-  std::string text = good;
-  const auto at = text.find(change.what);
-  if (at == std::string::npos) return "the good case has no such text";
-  return text.replace(at, std::string(change.what).size(), change.with);
-}
+std::string changed(const Change& change) { return test::changed(good, change); }
 
 class MalformedCase : public testing::TestWithParam<Change> {};
 

@@ -132,6 +132,35 @@ TEST(MassSolver, falls_back_on_a_factorisation_and_follows_new_values) {
   }
 }
 
+TEST(MassSolver, goes_direct_for_a_while_after_iterations_have_failed) {
+  const Line line(60, 8.0);
+  MassSolverOptions options;
+  options.max_iterations = 3;
+  MassSolver solver(options);
+  const auto exact = line.field(1);
+  const std::vector<double> zero(exact.size(), 0.0);
+  std::vector<double> b(exact.size());
+  line.mass.multiply(exact, b);
+  solver.set_matrix(line.mass, line.halo, 1, line.active);
+  // Conjugate gradients started from the solution are done without an iteration; a factorisation counts one.
+  const auto iterations = [&](std::vector<double> start) {
+    const auto report = solver.solve(b, start);
+    EXPECT_TRUE(report.solved) << report.cause;
+    EXPECT_LT(distance(start, exact), 1e-9);
+    return report.iterations;
+  };
+  iterations(zero);
+  EXPECT_EQ(iterations(exact), 1);
+  EXPECT_EQ(iterations(exact), 0);
+  // Two failures in a row.
+  iterations(zero);
+  EXPECT_EQ(iterations(exact), 1);
+  iterations(zero);
+  EXPECT_EQ(iterations(exact), 1);
+  EXPECT_EQ(iterations(exact), 1);
+  EXPECT_EQ(iterations(exact), 0);
+}
+
 TEST(MassSolver, reports_an_indefinite_matrix) {
   Line line(10);
   for (double& v : line.mass.values()) v = -v;

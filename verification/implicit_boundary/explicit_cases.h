@@ -12,8 +12,8 @@ struct Slide {
 };
 Slide slide(const Variant& variant, double friction);
 
-/// A block on 30 degrees, friction 0.7, brought to rest by ramp and damping over 2 s, then left alone for 2
-/// s.
+/// A block on 30 degrees, friction 0.7, brought to rest by ramp and damping over 2 s (8 s with splines, whose
+/// creep falls with that time: it is what is left of the damping), then left alone for 2 s.
 struct Stick {
   double creep = 0.0;    ///< cells a second, in the first second alone
   double lasting = 0.0;  ///< cells, over both

@@ -40,7 +40,16 @@ Scene frame(const Variant& variant, double degrees, double length) {
   scene.options.grid.lower = {-half * cell, -half * cell};
   scene.options.grid.upper = {half * cell, half * cell};
   scene.options.grid.cells = {2 * half, 2 * half};
-  if (variant.gimp) scene.options.basis = GimpOptions{};
+  if (variant.gimp()) scene.options.basis = GimpOptions{};
+  if (variant.triangles()) {
+    const bool splines = variant.functions == Functions::powell_sabin;
+    TriangleBlocksOptions blocks;
+    blocks.lower = scene.options.grid.lower, blocks.upper = scene.options.grid.upper;
+    blocks.cells.assign(2, splines ? half : 2 * half);
+    blocks.split = BlockSplit::two;
+    scene.options.triangulation = blocks;
+    if (splines) scene.options.basis = PowellSabinOptions{};
+  }
   if (variant.consistent) scene.options.stabilisation = GhostOptions{};
   scene.foot = variant.offset * cell * scene.up;
   return scene;
@@ -50,7 +59,8 @@ Scene frame(const Variant& variant, double degrees, double length) {
 
 std::string Variant::name() const {
   const char* scheme = update == StressUpdate::usl ? "USL" : update == StressUpdate::musl ? "MUSL" : "USF";
-  return fmt::format("{} {}{}, offset {:.2f} h", gimp ? "GIMP" : "linear", scheme,
+  constexpr const char* names[] = {"linear", "GIMP", "linear on triangles", "Powell-Sabin"};
+  return fmt::format("{} {}{}, offset {:.2f} h", names[static_cast<std::size_t>(functions)], scheme,
                      consistent ? ", consistent mass with Ghost" : "", offset);
 }
 

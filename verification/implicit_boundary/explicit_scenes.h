@@ -8,17 +8,25 @@
 
 namespace wisp::explicit_walls {
 
+constexpr double cell = 0.1, density = 1000.0, gravity = 10.0;  ///< m, kg/m3, m/s2
+
+/// Functions of the grid. Triangles are squares cut in two; those of splines, which have three functions a
+/// vertex, are twice as large.
+enum class Functions { linear, gimp, linear_triangles, powell_sabin };
+
 /// What is varied: functions, scheme, mass, and where in its cell the wall lies.
 struct Variant {
-  bool gimp = true;
+  Functions functions = Functions::gimp;
   StressUpdate update = StressUpdate::musl;
   bool consistent = false;  ///< with Ghost
   double offset = 0.0;      ///< of the wall along its normal, cells
 
+  bool gimp() const { return functions == Functions::gimp; }
+  /// Of a cell, or of the squares that are cut into triangles, m.
+  double side() const { return functions == Functions::powell_sabin ? 2.0 * cell : cell; }
+  bool triangles() const { return functions > Functions::gimp; }
   std::string name() const;
 };
-
-constexpr double cell = 0.1, density = 1000.0, gravity = 10.0;  ///< m, kg/m3, m/s2
 
 /// A scene: the options of a model and where its parts lie.
 struct Scene {

@@ -222,12 +222,14 @@ std::vector<VerificationRow> few_points(const VerificationRequest&) {
 }
 
 /// Linear functions and cubic splines on the same column.
-std::vector<VerificationRow> other_functions(const VerificationRequest&) {
+std::vector<VerificationRow> other_functions(const VerificationRequest& request) {
   std::vector<VerificationRow> rows;
-  Steps steps("near-empty.other-functions", 8);
+  Steps steps("near-empty.other-functions", request.full ? 8 : 7);
   for (const bool cubic : {false, true})
     for (const bool ghost : {false, true})
       for (const StripCase& grid : {column(1, 8, 12), column(2, 16, 12)}) {
+        // Conjugate gradients fail on the stabilised mass of cubic splines: a factorisation in every step.
+        if (cubic && ghost && grid.blocks == 16 && !request.full) continue;
         StripCase s = grid;
         s.splines = cubic, s.cubic = cubic;
         if (cubic) s.dt /= 2.0;
