@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "transfer/active.h"
+#include "transfer/density.h"
 #include "transfer/explicit_transfer.h"
 #include "transfer/mass.h"
 #include "transfer/reconstruction.h"
@@ -27,6 +28,7 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
       consistent_(options.mass != Mass::lumped),
       equation_({options.mass, options.fmpm_order, options.deactivate_below},
                 mass_solver_options(model.options.solver)),
+      field_equation_({}, mass_solver_options(model.options.solver)),
       walls_(walls_of(model.boundaries), *model.space) {
   if (options.velocity_update == VelocityUpdate::apic)
     for (auto& body : model_.bodies)
@@ -41,6 +43,7 @@ Explicit<dim>::Explicit(Model<dim>& model, const ExplicitOptions& options)
 template <int dim>
 void Explicit<dim>::renew_solver() {
   equation_.renew();
+  field_equation_.renew();
 }
 
 template <int dim>
@@ -75,8 +78,12 @@ void Explicit<dim>::gather(Gather what, const FollowedMotion& followed) {
   for (const auto& body : model_.bodies)
     points_to_grid<dim>(*model_.space, body, what, gravity, options_.velocity_update == VelocityUpdate::apic,
                         sums_, followed);
-  if (what != Gather::inertia && options_.integration == Integration::reconstructed)
-    add_reconstruction<dim>(*model_.space, model_.bodies, active_cells(*model_.space, model_.bodies), sums_);
+  if (what != Gather::inertia && options_.integration != Integration::points) {
+    const ActiveCells cells = active_cells(*model_.space, model_.bodies);
+    add_reconstruction<dim>(*model_.space, model_.bodies, cells, sums_);
+    if (reconstructs_density() && !gravity.isZero())
+      exchange_weight<dim>(*model_.space, model_.bodies, cells, gravity, sums_);
+  }
   model_.space->nodes().add_update(sums_.data(), sums_stride<dim>);
 }
 
@@ -137,7 +144,7 @@ void Explicit<dim>::add_work(double dt) {
 template <int dim>
 void Explicit<dim>::points(const PointUpdate& update) {
   points_changed_ = true;
-  if (!update.strain || options_.integration != Integration::reconstructed) {
+  if (!update.strain || options_.integration == Integration::points) {
     for (auto& body : model_.bodies) grid_to_points<dim>(*model_.space, body, update);
     return;
   }
@@ -238,6 +245,9 @@ void Explicit<dim>::step(double dt, EnergyRecord* record) {
   }
   if (!walls_.empty()) record_walls();
   if (record) record_energy(*record);
+  if (reconstructs_density())
+    balance_momentum<dim>(*model_.space, model_.bodies, active_cells(*model_.space, model_.bodies), motion_,
+                          dt);
   update.motion = motion_;
   update.velocity = true;
   const bool second_map = scheme == StressUpdate::musl || scheme == StressUpdate::projected;

@@ -52,6 +52,7 @@ class Explicit {
  private:
   void gather(Gather what, const FollowedMotion& followed = {});
   void assemble_mass();
+  bool reconstructs_density() const { return options_.integration == Integration::reconstructed_mass; }
   void prescribe(double t, std::vector<double>& velocity);
   void solve_velocity(double t, std::vector<double>& velocity);
   void solve_acceleration(double dt);
@@ -81,8 +82,9 @@ class Explicit {
   RecordArray sums_, motion_;
   std::vector<double> velocity_, strain_velocity_, acceleration_, loads_, right_side_, inertia_;
   BlockMatrix mass_{1}, ghost_mass_{1};
-  ActiveCells mass_cells_;  // for which their pattern was made
-  MassEquation equation_;
+  BlockMatrix field_mass_{1};  // of the reconstructed density, for the acceleration
+  ActiveCells mass_cells_;     // for which their pattern was made
+  MassEquation equation_, field_equation_;
   std::int64_t solves_ = 0, iterations_ = 0;
   WallContact<dim> walls_;
 };

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "stabilise/ghost.h"
 #include "transfer/active.h"
+#include "transfer/density.h"
 #include "transfer/mass.h"
 
 namespace wisp {
@@ -33,12 +34,14 @@ void Explicit<dim>::assemble_mass() {
       facets = ghost_facets(space, cells, model_.bodies, held_edges(model_.boundaries), ghost->elements);
     mass_.begin_pattern(space.n_functions());
     add_point_pattern(space, model_.bodies, mass_);
+    if (reconstructs_density()) add_density_pattern(space, model_.bodies, cells, mass_);
     add_ghost_pattern(space, facets, mass_);
     mass_.end_pattern();
     if (with_ghost) {
       ghost_mass_.share_pattern(mass_);
       add_ghost(space, facets, *ghost, GhostMatrix::mass, ghost_mass_);
     }
+    if (reconstructs_density()) field_mass_.share_pattern(mass_);
     mass_cells_ = cells;
   }
   mass_.zero();
@@ -51,10 +54,15 @@ void Explicit<dim>::assemble_mass() {
   for (std::size_t i = 0; i < active.size(); ++i) lumped[i] = sums_[i * sums_stride<dim>];
   std::vector<char> boundary;
   if (options_.mass == Mass::partial) boundary = boundary_functions(space, cells);
-  equation_.set_matrix(
-      mass_, space.nodes(), dim, std::move(active),
-      model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>(),
-      std::move(lumped), boundary);
+  const std::span<const char> fixed =
+      model_.constraints.any ? std::span<const char>(model_.constraints.fixed) : std::span<const char>();
+  if (reconstructs_density()) {
+    field_mass_.zero();
+    field_mass_.add_matrix(1.0, mass_);
+    exchange_mass(space, model_.bodies, cells, field_mass_);
+    field_equation_.set_matrix(field_mass_, space.nodes(), dim, active, fixed, lumped);
+  }
+  equation_.set_matrix(mass_, space.nodes(), dim, std::move(active), fixed, std::move(lumped), boundary);
 }
 
 /// Sets the velocity of held unknowns to that at time t.
@@ -112,7 +120,8 @@ void Explicit<dim>::solve_acceleration(double dt) {
   if (constraints.any) set_velocities(model_.boundaries, model_.time, dt, constraints);
   for (const std::size_t k : constraints.held)
     acceleration_[k] = (constraints.prescribed(k) - velocity_[k]) / dt;
-  const SolveReport report = equation_.solve(right_side_, acceleration_);
+  MassEquation& equation = reconstructs_density() ? field_equation_ : equation_;
+  const SolveReport report = equation.solve(right_side_, acceleration_);
   ++solves_, iterations_ += report.iterations;
   if (!report.solved)
     run_error(
@@ -198,7 +207,7 @@ void Explicit<dim>::find_reactions() {
   if (!model_.constraints.any) return;
   if (consistent_) {
     inertia_.resize(acceleration_.size());
-    mass_.multiply_columns(acceleration_, inertia_, dim);
+    (reconstructs_density() ? field_mass_ : mass_).multiply_columns(acceleration_, inertia_, dim);
     model_.space->nodes().add(inertia_.data(), dim);
   }
   for (auto& r : model_.reactions) r.setZero();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "linear/mass_solver.h"
@@ -30,6 +31,18 @@ double squared(const Halo& halo, std::span<const double> a, int components) {
     }
   }
   return Session::sum(sum);
+}
+
+/// What rounding alone makes of the forces on functions, N: strains carry that of a deformation gradient near
+/// one and of differences of the displacements.
+template <int dim>
+double force_rounding(const Model<dim>& model, std::span<const double> u) {
+  double modulus = 0.0, largest = 0.0;
+  for (const auto& body : model.bodies) modulus = std::max(modulus, body.p_wave_modulus());
+  for (const double v : u) largest = std::max(largest, std::abs(v));
+  const double h = model.space->shortest_extent();
+  return std::numeric_limits<double>::epsilon() * Session::max(modulus) * std::pow(h, dim - 2) *
+         (h + Session::max(largest));
 }
 }  // namespace
 
@@ -252,8 +265,9 @@ double Implicit<dim>::residual(std::span<const double> u, double dt) {
   double scale = std::sqrt(squared(space.nodes(), action, dim));
   if (newmark_) scale += std::sqrt(squared(space.nodes(), force_, dim)) + inertia_scale_;
   // The first evaluation, before any correction, never ends a step: prescribed motion has yet to be applied.
-  // Where nothing but a prescribed motion acts, there is no scale before that has found its reactions.
-  const double relative = scale > 0 ? r / scale : r > 0 ? 1.0 : 0.0;
+  // Where nothing but a prescribed motion acts, there is no scale before that has found its reactions; where
+  // that is rigid there is none at all, and rounding over rounding says nothing.
+  const double relative = r <= force_rounding(model_, u) ? 0.0 : scale > 0 ? r / scale : 1.0;
   return evaluations_ == 1 ? std::max(relative, 1.0) : relative;
 }
 

@@ -22,10 +22,12 @@ inline constexpr auto choices<VelocityUpdate> = choice_list<VelocityUpdate>({{"f
                                                                              {"pic", VelocityUpdate::pic},
                                                                              {"apic", VelocityUpdate::apic}});
 
-enum class Integration { points, reconstructed };
+enum class Integration { points, reconstructed, reconstructed_mass };
 template <>
-inline constexpr auto choices<Integration> = choice_list<Integration>(
-    {{"points", Integration::points}, {"reconstructed", Integration::reconstructed}});
+inline constexpr auto choices<Integration> =
+    choice_list<Integration>({{"points", Integration::points},
+                              {"reconstructed", Integration::reconstructed},
+                              {"reconstructed-mass", Integration::reconstructed_mass}});
 
 struct ExplicitOptions {
   double duration = 1.0;
@@ -78,7 +80,7 @@ struct ExplicitOptions {
             .at_most(1),
         key("integration", &O::integration, "",
             "internal forces by the points, or in filled cells by Gauss points of the stress reconstructed "
-            "there"),
+            "there; reconstructed-mass: consistent mass and weight as well, of the reconstructed density"),
         key("damping", &O::damping, "-",
             "local non-viscous damping: share of the out-of-balance force against the velocity")
             .at_least(0)

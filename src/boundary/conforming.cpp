@@ -54,16 +54,28 @@ Conforming<dim>::Conforming(const ConformingOptions& options, const Space<dim>& 
   check_length<dim>(options.node, "node", label);
   check_length<dim>(options.lower, "lower", label);
   check_length<dim>(options.upper, "upper", label);
+  if (!options.profile.empty() && options.profile.size() != dim + 1)
+    input_error("boundary '{}': profile needs {} values, found {}", label, dim + 1, options.profile.size());
+  bool on_triangles = false;
   if constexpr (dim == 2)
-    if (!space.structured()) {
-      hold_triangulation(space);
-      return;
-    }
-  if (!options.part.empty()) input_error("boundary '{}': part needs a triangulation", label);
-  if (space.nodal())
-    hold_nodes(space);
-  else
-    hold_splines(space);
+    if (!space.structured()) hold_triangulation(space), on_triangles = true;
+  if (!on_triangles) {
+    if (!options.part.empty()) input_error("boundary '{}': part needs a triangulation", label);
+    space.nodal() ? hold_nodes(space) : hold_splines(space);
+  }
+  set_factors(space);
+}
+
+/// Every basis reproduces linear functions with their values at the functions' places as coefficients.
+template <int dim>
+void Conforming<dim>::set_factors(const Space<dim>& space) {
+  factors_.assign(functions_.size(), 1.0);
+  if (options_.profile.empty()) return;
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    const Vec<dim> x = space.node_position(functions_[k]);
+    factors_[k] = options_.profile[0];
+    for (int d = 0; d < dim; ++d) factors_[k] += options_.profile[static_cast<std::size_t>(d) + 1] * x[d];
+  }
 }
 
 /// B-splines interpolate where knots are repeated, on the edges of the grid alone: one function a direction

@@ -15,17 +15,17 @@ template <int dim>
 class Conforming {
  public:
   /// Errors (InputError): not one of normal, node and part, no grid line, node or part there, unknown
-  /// directions, both displacement and velocity; B-splines elsewhere than on edges of the grid; on
-  /// triangulations functions that cannot be fixed one by one.
+  /// directions, both displacement and velocity, a profile of another length; B-splines elsewhere than on
+  /// edges of the grid; on triangulations functions that cannot be fixed one by one.
   Conforming(const ConformingOptions& options, const Space<dim>& space);
 
   const std::string& name() const { return options_.label; }
   /// Local indices of the held functions, ghosts included.
   const std::vector<int>& functions() const { return functions_; }
   void constrain(std::size_t index, Constraints<dim>& constraints) const {
-    for (const int i : functions_)
+    for (std::size_t k = 0; k < functions_.size(); ++k)
       for (int d = 0; d < dim; ++d)
-        if (holds(d)) constraints.hold(i, d, index);
+        if (holds(d)) constraints.hold(functions_[k], d, index, factors_[k]);
   }
   bool holds(int direction) const { return holds_[static_cast<std::size_t>(direction)]; }
 
@@ -47,8 +47,11 @@ class Conforming {
   void hold_splines(const Space<dim>& space);
   void hold_triangulation(const Space<2>& space);
 
+  void set_factors(const Space<dim>& space);
+
   ConformingOptions options_;
   std::vector<int> functions_, edges_;
+  std::vector<double> factors_;  // share of the motion, one a function
   std::array<bool, dim> holds_{};
   std::array<bool, 2 * dim> edge_{};
 };

@@ -20,6 +20,7 @@ struct ConformingOptions {
   std::vector<std::string> directions;
   std::optional<Curve> displacement;
   std::optional<Curve> velocity;
+  std::vector<double> profile;
 
   static constexpr std::string_view name = "conforming";
   static constexpr std::string_view summary =
@@ -38,7 +39,10 @@ struct ConformingOptions {
         key("upper", &O::upper, "m", "only nodes with coordinates not above this corner").per_direction(),
         key("directions", &O::directions, "", "directions that are constrained: x, y, z").required(),
         key("displacement", &O::displacement, "m", "prescribed displacement in time (default: fixed)"),
-        key("velocity", &O::velocity, "m/s", "prescribed velocity in time (instead of displacement)")};
+        key("velocity", &O::velocity, "m/s", "prescribed velocity in time (instead of displacement)"),
+        key("profile", &O::profile, "-, 1/m",
+            "[c, a, b] (3D: [c, a, b, d]): the motion at (x, y) is c + a x + b y times that in time, by the "
+            "initial position on the grid (default: the same everywhere)")};
   }
 };
 

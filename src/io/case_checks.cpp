@@ -429,14 +429,21 @@ class Checks {
       context_.fail_at(at("fmpm_order"), "only for mass = \"fmpm\"");
     if (e.deactivate_below > 0 && e.mass == Mass::lumped)
       context_.fail_at(at("deactivate_below"), "a lumped mass needs none; for the other masses only");
-    if (e.integration == Integration::reconstructed && std::holds_alternative<GimpOptions>(case_.basis))
+    if (e.integration != Integration::points && std::holds_alternative<GimpOptions>(case_.basis))
       context_.fail_at(at("integration"), "reconstruction needs points without domains, not basis 'gimp'");
+    if (e.integration == Integration::reconstructed_mass &&
+        (e.mass != Mass::consistent || e.velocity_update != VelocityUpdate::flip || e.pic_fraction > 0))
+      context_.fail_at(at("integration"),
+                       "\"reconstructed-mass\" needs mass = \"consistent\" and a FLIP update without PIC");
     if (context_.given(at("pic_fraction")) && e.velocity_update != VelocityUpdate::flip)
       context_.fail_at(at("pic_fraction"), "only for velocity_update = \"flip\"");
     if (e.updated_gradients && e.stress_update != StressUpdate::usf)
       context_.fail_at(at("updated_gradients"), "only for stress_update = \"usf\"");
     const auto is_wall = [](const AnyBoundaryOptions& b) { return std::holds_alternative<WallOptions>(b); };
     const bool walls = std::any_of(case_.boundaries.begin(), case_.boundaries.end(), is_wall);
+    if (e.integration == Integration::reconstructed_mass && walls)
+      context_.fail_at(at("integration"),
+                       "\"reconstructed-mass\" has no walls: their rows use the points' mass");
     if (e.damping > 0 && walls)
       context_.fail_at(at("damping"),
                        "not beside walls: it would also damp the forces that they carry; use pic_fraction");

@@ -50,6 +50,32 @@ TEST(Newton, LinearProblemsTakeTwoIterations) {
   EXPECT_NEAR(model.reactions[0][1], 1000.0 * 4.0, 1e-4);
 }
 
+TEST(Newton, NothingOverNothingIsConverged) {
+  // No force at all: the residual and its scale are both zero, and the step must end, not turn into 0/0.
+  {
+    auto o = cantilever(LinearElastic{1000.0, 1e6, 0.3}, false, 0.0);
+    Model<2> model(o);
+    Implicit<2> run(model, newton(1e-9, 10));
+    const auto record = run.step(1.0);
+    EXPECT_EQ(record.iterations, 2);
+    ASSERT_EQ(record.residuals.size(), 2U);
+    EXPECT_EQ(record.residuals[0], 1.0) << "the first evaluation never ends a step";
+    EXPECT_EQ(record.residuals[1], 0.0);
+  }
+  // Nothing acts but a prescribed motion: no scale until the first reactions are found.
+  auto o = cantilever(LinearElastic{1000.0, 1e6, 0.3}, false, 0.0);
+  std::get<ConformingOptions>(o.boundaries[0]).displacement = ramp(0.1);
+  Model<2> model(o);
+  Implicit<2> run(model, newton(1e-9, 10));
+  const auto record = run.step(1.0);
+  for (const double r : record.residuals) EXPECT_TRUE(std::isfinite(r));
+  EXPECT_EQ(record.residuals[0], 1.0);
+  for_each_point(model, [&](const auto& body, std::size_t p) {
+    ASSERT_NEAR(body.points.displacement[p][0], 0.1, 1e-9) << "moved as a whole";
+    ASSERT_NEAR(body.points.displacement[p][1], 0.1, 1e-9);
+  });
+}
+
 TEST(Newton, ReportsAStepThatDoesNotConverge) {
   Model<2> model(cantilever(Hencky{1000.0, 1e6, 0.3}, true, 40.0));
   Implicit<2> run(model, newton(1e-8, 4));

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "analysis/triangle_samples.h"
+#include "core/error.h"
 
 namespace wisp {
 namespace {
@@ -81,6 +82,89 @@ TEST(Triangles, SplinesAreHeldAlongOneSideOfACornerThatTurnsInwards) {
   sides.control_triangles = ControlTriangleRule::hull_edges;
   o.basis = sides;
   EXPECT_THROW(largest_error(), InputError);
+}
+
+/// A slab, 2 m wide, whose upper side is bent at its middle (1, 1 + rise): side 3 is the right half of it.
+ModelOptions bent_slab(double rise, const AnyBasisOptions& basis) {
+  ModelOptions o;
+  DelaunayOptions grid;
+  grid.outline.vertices = {{0, 0}, {2, 0}, {2, 1}, {1, 1 + rise}, {0, 1}};
+  grid.spacing = 0.3;
+  o.triangulation = grid;
+  o.basis = basis;
+  Polygon shape;
+  shape.vertices = grid.outline.vertices;
+  BodyOptions body;
+  body.label = "slab", body.shape = shape, body.material = LinearElastic{1.0, 1000.0, 0.3};
+  body.sampling.points_per_cell = 6;
+  o.bodies.push_back(body);
+  return o;
+}
+
+TEST(Triangles, SplinesAreHeldAlongOneSideOfANearlyStraightKink) {
+  // Hung up along one half of a side that is bent by 5.7 degrees outwards or inwards: the reaction is the
+  // weight, and the held half stays where it is. Its other half is free.
+  for (const AnyBasisOptions& basis :
+       {AnyBasisOptions(LagrangeQuadraticOptions{}), AnyBasisOptions(PowellSabinOptions{}),
+        AnyBasisOptions(PowellSabinCubicOptions{})}) {
+    double straight = 0.0;
+    for (const double rise : {0.0, 0.05, -0.05}) {
+      auto o = bent_slab(rise, basis);
+      hold_part(o, "side 3", "xy");
+      add_gravity(o, {0.0, -1.0}, ramp());
+      Model<2> model(o);
+      QuasiStaticOptions q;
+      q.steps = 1;
+      Implicit<2> run(model, q);
+      run.step(1.0);
+      EXPECT_NEAR(model.reactions[0][1], 2.0 + rise, 1e-8);
+      EXPECT_NEAR(model.reactions[0][0], 0.0, 1e-8);
+      double far = 0.0, near = 0.0;
+      for_each_point(model, [&](const auto& body, std::size_t k) {
+        const Vec<2> u = body.points.displacement[k], x = body.points.position[k] - u;
+        if (x[0] < 0.3) far = std::max(far, u.norm());
+        if (x[0] > 1.1 && 1 + rise - rise * (x[0] - 1) - x[1] < 0.05) near = std::max(near, u.norm());
+      });
+      EXPECT_LT(near, 0.1 * far);
+      if (rise == 0.0) straight = far;
+      EXPECT_NEAR(far, straight, 0.1 * straight) << rise << ", basis " << basis.index();
+    }
+  }
+  auto o = bent_slab(-0.3, PowellSabinOptions{});  // 33 degrees inwards
+  hold_part(o, "side 3", "xy");
+  EXPECT_THROW(Model<2>{o}, InputError);
+}
+
+TEST(Triangles, MotionThatVariesAlongTheBoundaryGivesTheLinearPatch) {
+  // u = A x on a boundary with a kink of 5.7 degrees, all of it held, makes u = A x everywhere.
+  Mat<2> a;
+  a << 2e-3, -1e-3, 3e-3, 1e-3;
+  for (const AnyBasisOptions& basis :
+       {AnyBasisOptions(LinearOptions{}), AnyBasisOptions(LagrangeQuadraticOptions{}),
+        AnyBasisOptions(PowellSabinOptions{}), AnyBasisOptions(PowellSabinCubicOptions{})}) {
+    auto o = bent_slab(0.05, basis);
+    o.bodies[0].sampling.points_per_cell = 8;
+    for (int side = 1; side <= 5; ++side)
+      for (int d = 0; d < 2; ++d) {
+        auto& c = hold_part(o, "side " + std::to_string(side), d == 0 ? "x" : "y");
+        c.label += d == 0 ? " x" : " y";
+        c.displacement = ramp(), c.profile = {0.0, a(d, 0), a(d, 1)};
+      }
+    Model<2> model(o);
+    QuasiStaticOptions q;
+    q.steps = 1;
+    Implicit<2> run(model, q);
+    run.step(1.0);
+    const bool by_points = std::holds_alternative<PowellSabinOptions>(basis) ||
+                           std::holds_alternative<PowellSabinCubicOptions>(basis);
+    double worst = 0.0;
+    for_each_point(model, [&](const auto& body, std::size_t k) {
+      const Vec<2> u = body.points.displacement[k];
+      worst = std::max(worst, (u - a * (body.points.position[k] - u)).norm());
+    });
+    // The sum over points integrates constant gradients exactly, and linear ones of a lattice.
+    EXPECT_LT(worst, by_points ? 2e-4 : 1e-11) << basis.index();
+  }
 }
 
 TEST(Triangles, TractionBalancesOnEveryBasis) {

@@ -80,6 +80,22 @@ TEST(Conforming, IsPrescribedByVelocity) {
   EXPECT_DOUBLE_EQ(wall.increment(0.5, 1.0), 2.0);
 }
 
+TEST(Conforming, MotionVariesLinearlyByItsProfile) {
+  const auto s = scene<2>(2);
+  auto o = on("x", 0.0, {"x"});
+  o.velocity = curve({0.0, 2.0}, {0.0, 4.0}), o.profile = {0.5, 3.0, -2.0};
+  const std::vector<AnyBoundary<2>> conditions{Conforming<2>(o, *s.space)};
+  Constraints<2> c = constraints_of(conditions, s.space->n_functions());
+  set_velocities(conditions, 0.0, 1.0, c);
+  ASSERT_FALSE(c.held.empty());
+  for (const std::size_t k : c.held) {
+    const Vec<2> x = s.space->node_position(static_cast<int>(k / 2));
+    EXPECT_DOUBLE_EQ(c.prescribed(k), 2.0 * (0.5 + 3.0 * x[0] - 2.0 * x[1]));
+  }
+  o.profile = {1.0, 2.0};
+  EXPECT_THROW(Conforming<2>(o, *s.space), InputError);
+}
+
 TEST(Conforming, TheLastConditionWins) {
   const auto s = scene<2>(2);
   const std::vector<AnyBoundary<2>> conditions{Conforming<2>(on("x", 0.0, {"x", "y"}), *s.space),

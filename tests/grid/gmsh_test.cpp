@@ -144,6 +144,34 @@ TEST(Gmsh, ReadsBinaryFilesLikeTheirText) {
   }
 }
 
+TEST(Gmsh, ReadsFilesThatGmshItselfHasWritten) {
+  // strip.geo, meshed and saved by Gmsh 4.8 in both formats, as text and in binary.
+  const std::filesystem::path folder = std::filesystem::path(WISP_SOURCE_DIR) / "tests/grid/gmsh";
+  const auto first = read_gmsh(folder / "strip-msh2-ascii.msh");
+  EXPECT_NEAR(first.total_area(), 2.0, 1e-12);
+  EXPECT_GT(first.n_triangles(), 10);
+  for (const char* name :
+       {"strip-msh2-ascii", "strip-msh2-binary", "strip-msh41-ascii", "strip-msh41-binary"}) {
+    const auto mesh = read_gmsh(folder / (std::string(name) + ".msh"));
+    ASSERT_EQ(mesh.n_vertices(), first.n_vertices()) << name;
+    ASSERT_EQ(mesh.n_triangles(), first.n_triangles()) << name;
+    EXPECT_NEAR(mesh.total_area(), 2.0, 1e-12) << name;
+    const auto length = [&](const char* part) {
+      double sum = 0.0;
+      for (const int e : mesh.part(part).edges)
+        sum += (mesh.vertex(mesh.edge(e).vertex[1]) - mesh.vertex(mesh.edge(e).vertex[0])).norm();
+      return sum;
+    };
+    EXPECT_NEAR(length("base line"), 2.0, 1e-12) << name;
+    EXPECT_NEAR(length("right"), 1.0, 1e-12) << name;
+    EXPECT_NEAR(length("rest"), 3.0, 1e-12) << name;
+    for (const int v : mesh.part("base line").vertices) EXPECT_EQ(mesh.vertex(v).y(), 0.0) << name;
+    EXPECT_EQ(static_cast<int>(mesh.part("soil").triangles.size()), mesh.n_triangles()) << name;
+    ASSERT_EQ(mesh.part("pin").vertices.size(), 1U) << name;
+    EXPECT_EQ(mesh.vertex(mesh.part("pin").vertices[0]), Vec<2>(0, 0)) << name;
+  }
+}
+
 /// Any triangulation, written in format 2.2 and 4.1.
 std::string written(const Triangulation& mesh, bool four) {
   std::string text = four ? "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n"

@@ -2,6 +2,7 @@
 # sanitizer build can stop there; and in such a build what they need to tell our leaks from those of MPI.
 add_custom_target(unit_tests)
 set(wisp_sanitize_folder ${CMAKE_CURRENT_LIST_DIR})
+set_source_files_properties(${wisp_sanitize_folder}/keep_loaded.c PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 function(wisp_unit_test name)
   add_dependencies(unit_tests test_${name})
   set_property(TEST ${name} APPEND PROPERTY LABELS unit)

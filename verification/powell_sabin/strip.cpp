@@ -130,6 +130,7 @@ StripRun run_strip(const StripCase& s) {
   options.duration = s.duration, options.dt = s.dt;
   options.stress_update = StressUpdate::projected;
   if (s.reconstructed) options.integration = Integration::reconstructed;
+  if (s.reconstructed_mass) options.integration = Integration::reconstructed_mass;
   options.mass = s.mass, options.fmpm_order = s.fmpm_order, options.deactivate_below = s.deactivate_below;
   Explicit<2> analysis(model, options);
   StripRun run;
