@@ -73,7 +73,7 @@ def draw_points(results, options, path):
     half = drawing.half_lengths(points, dimension, options.undeformed)
     figure = _new_figure(*_figure_size(np.ptp(positions, axis=0) + 2 * half.max(axis=0), dimension == 3))
     axes = figure.add_subplot()
-    scene = results.scene
+    scene = results.scene.at(0.0 if options.undeformed else results.times[state])
     if dimension == 3:
         drawn = drawing.draw_3d(axes, positions, values, half, scene)
     else:

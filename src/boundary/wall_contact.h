@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "basis/space.h"
+#include "boundary/mean_motion.h"
 #include "boundary/wall.h"
 #include "boundary/wall_rows.h"
 #include "boundary/wall_system.h"
@@ -107,7 +108,8 @@ class WallContact {
                             std::span<double> motion, int stride);
 
   /// After the points have moved: those too close to a wall go back by a tenth of what is missing; with
-  /// domains the velocities around loaded rows are blended by a tenth towards the grid's, momentum unchanged.
+  /// domains the velocities around loaded rows are blended by a tenth towards the mean rigid motions of the
+  /// points at each function, momentum and angular momentum unchanged.
   void correct_points(std::vector<Body<dim>>& bodies);
 
   /// Of the last step, one a wall.
@@ -209,8 +211,9 @@ class WallContact {
   std::vector<std::vector<int>> rows_of_slot_;     // live rows
   std::vector<char> seen_;                         // over live rows
   std::vector<int> met_;
-  std::vector<double> slot_mass_;  // over slots: mass, then for each direction 1 if free
-  std::vector<double> momentum_;   // over slots or light functions
+  std::vector<double> slot_mass_;             // over slots: mass, then for each direction 1 if free
+  std::vector<double> momentum_;              // over slots or light functions
+  std::vector<MeanMotion<dim>> mean_motion_;  // slots x, of loaded functions
   std::vector<int> light_functions_, light_number_, light_cells_;
   std::vector<char> light_cell_;
   std::vector<double> function_volume_;                 // of triangulations: integrals of the functions, m2

@@ -184,8 +184,8 @@ void WallContact<dim>::correct_points(std::vector<Body<dim>>& bodies) {
   }
 }
 
-/// v_p += share sum_i phi_i (v_i - v_p) over the functions of loaded rows, v_i the mean of the same points:
-/// sum_p m_p phi_ip (v_i - v_p) = 0 for each function, so that momentum stays to rounding.
+/// v_p += share sum_i phi_i (v_i + w_i x (x_p - x_i) - v_p) over the functions of loaded rows, with the mean
+/// position, velocity and rotation of the same points: neither momentum nor angular momentum changes.
 template <int dim>
 void WallContact<dim>::blend(std::vector<Body<dim>>& bodies) {
   loaded_.assign(functions_.size(), 0);
@@ -194,31 +194,33 @@ void WallContact<dim>::blend(std::vector<Body<dim>>& bodies) {
     if (states_[r].loaded())
       for (std::size_t i = 0; i < live_[r].n; ++i) loaded_[at(live_[r].slot[i])] = 1, any = true;
   if (!any) return;
-  constexpr std::size_t stride = 1 + dim;
-  momentum_.assign(functions_.size() * stride, 0.0);
+  using Sums = MotionSums<dim>;
+  momentum_.assign(functions_.size() * Sums::count, 0.0);
   for_each_near_stencil(
       bodies, [&](const PointOf&, const Particles<dim>& points, std::size_t p, const auto& stencil) {
         stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
           const int s = slot_[at(i)];
-          if (s < 0 || !loaded_[at(s)]) return;
-          double* const sum = momentum_.data() + at(s) * stride;
-          sum[0] += phi * points.mass[p];
-          for (int d = 0; d < dim; ++d) sum[1 + d] += phi * points.mass[p] * points.velocity[p][d];
+          if (s >= 0 && loaded_[at(s)])
+            Sums::add(phi * points.mass[p], points.position[p] - space_->node_position(i), points.velocity[p],
+                      momentum_.data() + at(s) * Sums::count);
         });
       });
   if (Session::size() > 1) Session::sum_in_place(momentum_);
-  for_each_near_stencil(
-      bodies, [&](const PointOf& which, const Particles<dim>& points, std::size_t p, const auto& stencil) {
-        Vec<dim> change = Vec<dim>::Zero();
-        stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
-          const int s = slot_[at(i)];
-          if (s < 0 || !loaded_[at(s)]) return;
-          const double* const sum = momentum_.data() + at(s) * stride;
-          if (sum[0] > 0.0)
-            for (int d = 0; d < dim; ++d) change[d] += phi * (sum[1 + d] / sum[0] - points.velocity[p][d]);
-        });
-        bodies[at(which.body)].points.velocity[p] += blend_share * change;
-      });
+  std::vector<MeanMotion<dim>>& mean = mean_motion_;
+  mean.resize(functions_.size());
+  for (std::size_t s = 0; s < functions_.size(); ++s)
+    if (loaded_[s]) mean[s] = Sums::motion(momentum_.data() + s * Sums::count);
+  for_each_near_stencil(bodies, [&](const PointOf& which, const Particles<dim>& points, std::size_t p,
+                                    const auto& stencil) {
+    Vec<dim> change = Vec<dim>::Zero();
+    stencil.for_each([&](int, int i, double phi, const Vec<dim>&) {
+      const int s = slot_[at(i)];
+      if (s >= 0 && loaded_[at(s)])
+        change +=
+            phi * (mean[at(s)].velocity(points.position[p] - space_->node_position(i)) - points.velocity[p]);
+    });
+    bodies[at(which.body)].points.velocity[p] += blend_share * change;
+  });
 }
 
 template class WallContact<2>;

@@ -161,9 +161,55 @@ std::string grid_json(const Case& c) {
   return c.dimension == 2 ? lines_json<2>(lines) : lines_json<3>(lines);
 }
 
-/// The pieces of walls that stand still, each a line of places.
+std::string numbers_json(std::span<const double> values) {
+  std::string text = "[";
+  for (std::size_t k = 0; k < values.size(); ++k) text += fmt::format("{}{}", k > 0 ? ", " : "", values[k]);
+  return text + "]";
+}
+
+std::string curve_json(const Curve& curve) {
+  return fmt::format("[{}, {}]", numbers_json(curve.times), numbers_json(curve.values));
+}
+
+/// Lines of walls at rest, and of each wall that moves also its motion as the case gives it.
+struct WallsJson {
+  std::string at_rest, moving;
+};
+
+/// A motion: curves are [times, values].
+std::string motion_json(const RigidMotionOptions& motion) {
+  std::string text;
+  const auto add = [&](const char* key, const std::string& value) {
+    text += fmt::format("{}\"{}\": {}", text.empty() ? "{" : ", ", key, value);
+  };
+  const auto curves = [&](const char* key, const std::vector<Curve>& list) {
+    std::string all;
+    for (const Curve& c : list) all += (all.empty() ? "[" : ", ") + curve_json(c);
+    if (!list.empty()) add(key, all + "]");
+  };
+  curves("displacement", motion.displacement);
+  curves("velocity", motion.velocity);
+  if (motion.rotation) add("rotation", curve_json(*motion.rotation));
+  if (motion.angular_velocity) add("angular_velocity", curve_json(*motion.angular_velocity));
+  if (!motion.centre.empty()) add("centre", numbers_json(motion.centre));
+  if (!motion.axis.empty()) add("axis", numbers_json(motion.axis));
+  return text.empty() ? "{}" : text + "}";
+}
+
 template <int dim>
-std::string walls_json(const Case& c) {
+std::string lines_of(const Wall<dim>& wall, double length, const Block<dim>& box) {
+  std::string text;
+  for (const auto& piece : wall.shape().pieces(length, box)) {
+    text += text.empty() ? "[" : ",\n  [";
+    for (std::size_t k = 0; k < dim; ++k)
+      text += (k > 0 ? ", " : "") + numbers_json({piece.vertex[k].data(), dim});
+    text += "]";
+  }
+  return text;
+}
+
+template <int dim>
+WallsJson walls_json(const Case& c) {
   double length;
   Block<dim> box;
   if (const auto* lines = std::get_if<StructuredGridOptions>(&c.grid)) {
@@ -175,20 +221,16 @@ std::string walls_json(const Case& c) {
   } else {
     return {};
   }
-  std::string text;
+  WallsJson text;
   for (const auto& boundary : c.boundaries) {
     const auto* o = std::get_if<WallOptions>(&boundary);
-    if (!o || o->motion) continue;
-    const Wall<dim> wall(*o, c.file.folder);
-    for (const auto& piece : wall.shape().pieces(length, box)) {
-      text += text.empty() ? "[" : ",\n  [";
-      for (std::size_t k = 0; k < dim; ++k) {
-        text += k > 0 ? ", [" : "[";
-        for (int d = 0; d < dim; ++d) text += fmt::format("{}{}", d > 0 ? ", " : "", piece.vertex[k][d]);
-        text += "]";
-      }
-      text += "]";
-    }
+    if (!o) continue;
+    const std::string lines = lines_of(Wall<dim>(*o, c.file.folder), length, box);
+    if (lines.empty()) continue;
+    std::string& list = o->motion ? text.moving : text.at_rest;
+    list += list.empty() ? "" : ",\n  ";
+    list += o->motion ? fmt::format("{{\"lines\": [{}],\n   \"motion\": {}}}", lines, motion_json(*o->motion))
+                      : lines;
   }
   return text;
 }
@@ -196,8 +238,9 @@ std::string walls_json(const Case& c) {
 }  // namespace
 
 std::string scene_json(const Case& c) {
-  return fmt::format("{{\"title\": {},\n \"grid\": {},\n \"walls\": [{}]}}\n", json_text(c.title),
-                     grid_json(c), c.dimension == 2 ? walls_json<2>(c) : walls_json<3>(c));
+  const WallsJson walls = c.dimension == 2 ? walls_json<2>(c) : walls_json<3>(c);
+  return fmt::format("{{\"title\": {},\n \"grid\": {},\n \"walls\": [{}],\n \"moving walls\": [{}]}}\n",
+                     json_text(c.title), grid_json(c), walls.at_rest, walls.moving);
 }
 
 VtuCells grid_cells(const Triangulation& mesh) {

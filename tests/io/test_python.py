@@ -16,6 +16,7 @@ import sample_results
 
 from wisp import Results, ResultsError, fields, read_history, read_vtu
 from wisp import curves, drawing, picture
+from wisp.scene import read_scene
 
 SAMPLES = ""
 
@@ -181,6 +182,48 @@ class Fields(unittest.TestCase):
         self.assertEqual(curves.choose_columns(run, ["stage", "kinetic energy"]), ["stage", "kinetic energy [J]"])
         with self.assertRaisesRegex(ResultsError, r"no column uu; did you mean u\?"):
             curves.choose_columns(history, ["uu"])
+
+
+class MovingWalls(InFolder):
+    def wall(self, motion, line=((1.0, 0.0), (2.0, 0.0))):
+        with open(os.path.join(self.folder, "scene.json"), "w", encoding="utf-8") as stream:
+            json.dump({"walls": [[[5.0, 5.0], [6.0, 5.0]]], "moving walls": [{"lines": [line], "motion": motion}]}, stream)
+        return read_scene(os.path.join(self.folder, "scene.json"))
+
+    def test_displacement_and_velocity(self):
+        scene = self.wall({"displacement": [[[0.0], [0.5]], [[0.0, 2.0], [0.0, 4.0]]]})
+        for time, y in ((0.0, 0.0), (1.0, 2.0), (9.0, 4.0)):
+            still, moved = scene.at(time).walls
+            np.testing.assert_array_equal(still, [[5.0, 5.0], [6.0, 5.0]])
+            np.testing.assert_allclose(moved, [[1.5, y], [2.5, y]])
+        # A velocity that rises over 2 s: t^2, then on at 4 m/s.
+        scene = self.wall({"velocity": [[[0.0], [0.0]], [[0.0, 2.0], [0.0, 4.0]]]})
+        for time, y in ((1.0, 1.0), (2.0, 4.0), (3.0, 8.0)):
+            np.testing.assert_allclose(scene.at(time).walls[1][:, 1], [y, y])
+
+    def test_rotation_about_a_centre_that_moves(self):
+        scene = self.wall({"angular_velocity": [[0.0], [np.pi]], "centre": [1.0, 0.0], "velocity": [[[0.0], [2.0]], [[0.0], [0.0]]]})
+        np.testing.assert_allclose(scene.at(0.5).walls[1], [[2.0, 0.0], [2.0, 1.0]], atol=1e-15)
+        scene = self.wall({"rotation": [[0.0, 1.0], [0.0, np.pi / 2]], "axis": [0.0, 0.0, 2.0]}, ((1.0, 0.0, 3.0), (0.0, 1.0, 3.0)))
+        np.testing.assert_allclose(scene.at(1.0).walls[1], [[0.0, 1.0, 3.0], [-1.0, 0.0, 3.0]], atol=1e-15)
+
+    def test_a_picture_shows_the_wall_at_its_time(self):
+        sample_results.beam(self.folder)
+        self.wall({"velocity": [[[0.0], [0.0]], [[0.0], [-1.5]]]}, ((0.0, 0.6), (4.0, 0.6)))
+        places = []
+        for time in ("0", "1"):
+            status, out, _ = self.draw("--time", time, "--output", os.path.join(self.folder, f"at{time}"))
+            self.assertEqual(status, 0)
+            image = pixels(out[0])
+            dark = np.count_nonzero(image[:, :int(0.75 * image.shape[1])].max(axis=2) < 90, axis=1)
+            places.append(np.argmax(dark) / len(dark))  # the row of the longest dark line
+        self.assertGreater(abs(places[1] - places[0]), 0.02)
+
+    def test_refused(self):
+        sample_results.beam(self.folder)
+        for motion in ({"velocity": [[[0.0], [1.0]]]}, {"displacement": [[[0.0, 0.0], [1.0, 2.0]]] * 2}, {"centre": [0.0]}, 3):
+            with self.assertRaises(ResultsError):
+                self.wall(motion)
 
 
 class Pictures(InFolder):
