@@ -20,6 +20,9 @@ void* allocate(std::size_t bytes, std::size_t alignment) {
   return p;
 }
 
+/// Not inlined, or g++ sees `free` next to `new` in a caller and takes it for a mistake.
+__attribute__((noinline)) void release(void* p) noexcept { std::free(p); }
+
 }  // namespace
 
 // All other forms of the standard library end in these.
@@ -27,10 +30,10 @@ void* operator new(std::size_t bytes) { return allocate(bytes, __STDCPP_DEFAULT_
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return allocate(bytes, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p) noexcept { release(p); }
+void operator delete(void* p, std::size_t) noexcept { release(p); }
+void operator delete(void* p, std::align_val_t) noexcept { release(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(p); }
 
 namespace wisp {
 namespace {

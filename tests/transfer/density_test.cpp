@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <random>
 
@@ -181,6 +182,62 @@ TEST(ReconstructedDensity, PointsTakeTheMomentumOfTheGrid) {
     EXPECT_GT(correction, 1e-6);
     EXPECT_LT(correction, 0.05 * dt) << "of increments up to dt";
   }
+}
+
+TEST(ReconstructedDensity, PointsTakeTheMomentumOfTheGridInSpace) {
+  const double dt = 0.1;
+  std::array<std::vector<double>, 3> lines;
+  for (auto& line : lines) line = {0.0, 1.0, 2.0, 3.0};
+  const StructuredGrid<3> grid(lines);
+  const Space<3> space(grid, BoxPartition<3>(grid.cells()), AnyBasisOptions(LinearOptions{}));
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> any(-1.0, 1.0), share(0.01, 0.99);
+  std::vector<Body<3>> bodies;
+  bodies.push_back({"body", {}, make_material<3>(AnyLaw(LinearElastic{}))});
+  auto& points = bodies[0].points;
+  for (int k = 0; k < 27 * 27; ++k) {
+    const int cell = k / 27;
+    const MultiIndex<3> c(cell % 3, cell / 3 % 3, cell / 9);
+    points.position.push_back(c.cast<double>() + Vec<3>(share(random), share(random), share(random)));
+    points.volume.push_back(1.0 / 27), points.mass.push_back(1.0 + 0.2 * any(random));
+    points.velocity.push_back(Vec<3>::Zero()), points.deformation_gradient.push_back(Mat<3>::Identity());
+    points.cell.push_back(space.window().cell_index(c));
+    std::get<MaterialStates<LinearElastic, 3>>(bodies[0].material).old.push_back({});
+  }
+  const ActiveCells cells = active_cells(space, bodies);
+  BlockMatrix mass{1};
+  mass.begin_pattern(space.n_functions());
+  add_point_pattern(space, bodies, mass);
+  mass.end_pattern();
+  add_consistent_mass(space, bodies, mass);
+  exchange_mass(space, bodies, cells, mass);
+  const auto functions = static_cast<std::size_t>(space.n_functions());
+  std::vector<double> motion(functions * motion_stride<3>, 0.0), a(functions * 3), inertia(functions * 3);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    a[k] = motion[k / 3 * motion_stride<3> + 3 + k % 3] = any(random);
+  mass.multiply_columns(a, inertia, 3);
+  balance_momentum<3>(space, bodies, cells, motion, dt);
+  Vec<3> expected = Vec<3>::Zero(), moment = Vec<3>::Zero(), found = Vec<3>::Zero(), spin = Vec<3>::Zero();
+  for (std::size_t i = 0; i < functions; ++i) {
+    const Vec<3> f(inertia[3 * i], inertia[3 * i + 1], inertia[3 * i + 2]);
+    expected += dt * f, moment += dt * space.node_position(static_cast<int>(i)).cross(f);
+  }
+  std::visit(
+      [&](const auto& basis) {
+        if constexpr (!std::decay_t<decltype(basis)>::uses_domains)
+          for (std::size_t p = 0; p < points.position.size(); ++p) {
+            Vec<3> v = points.velocity[p];
+            basis.tabulate(points.position[p], Vec<3>::Zero())
+                .for_each([&](int, int i, double phi, const Vec<3>&) {
+                  for (int d = 0; d < 3; ++d) v[d] += dt * phi * a[static_cast<std::size_t>(3 * i + d)];
+                });
+            found += points.mass[p] * v, spin += points.mass[p] * points.position[p].cross(v);
+          }
+      },
+      space.basis());
+  EXPECT_GT(points.velocity[0].norm(), 1e-6);
+  EXPECT_LT((found - expected).norm(), 1e-10);
+  EXPECT_LT((spin - moment).norm(), 1e-9);
 }
 
 TEST(Reconstruction, KeepsTrianglesThatLosePointsOnTheirEdges) {
