@@ -1,5 +1,6 @@
-# Precompiled headers of what nearly every file includes: a tenth of a build from nothing. Off by default: compiler
-# caches cannot store what was compiled with them. ./setup and ./test switch them on where there is no ccache.
+# Precompiled headers of what nearly every file includes: a tenth of a build from nothing. For builds without
+# optimisation and without a compiler cache, such as the sanitizer build of ./test: caches cannot store what was compiled
+# with them, and in optimised builds g++ 12 warns of the standard library's strings.
 option(WISP_PRECOMPILE "Precompile the headers of Eigen, fmt and the standard library" OFF)
 
 # wisp_precompiled(NAME HEADER...): a library that has them, for targets of the same options.

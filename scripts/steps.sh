@@ -57,12 +57,12 @@ install_packages() {
   "${sudo[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0 install --no-install-recommends "${missing[@]}"
 }
 
-# configure DIRECTORY [option...]: CMake with Ninja, and ccache if it is installed, else precompiled headers.
+# configure DIRECTORY [option...]: CMake with Ninja, and ccache if it is installed.
 configure() {
-  local directory=$1 launcher=(-DWISP_PRECOMPILE=ON)
+  local directory=$1 launcher=()
   shift
   if command -v ccache >/dev/null; then
-    launcher=(-DWISP_PRECOMPILE=OFF -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   cmake -S . -B "$directory" -G Ninja "${launcher[@]}" "$@"
 }
