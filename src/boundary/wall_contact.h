@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "basis/space.h"
-#include "boundary/mean_motion.h"
 #include "boundary/wall.h"
 #include "boundary/wall_rows.h"
 #include "boundary/wall_system.h"
 #include "parallel/session.h"
 #include "particle/body.h"
+#include "particle/mean_motion.h"
 
 namespace wisp {
 

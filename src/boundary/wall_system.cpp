@@ -116,22 +116,31 @@ void WallSystem<dim>::find(std::span<RowState<dim>> rows) {
     if (sweep(rows, k % 2 == 1) <= tolerance * first) return;
 }
 
+/// Unknowns of all rows, in the order of the factor; `add(row)` adds those of one.
+template <int dim>
+template <class Add>
+void WallSystem<dim>::list_unknowns(Add&& add) {
+  unknowns_.clear();
+  unknowns_of_.assign(at(n_rows()), {0, 0});
+  if (!ordered_) order_rows();
+  for (const int r : order_) {
+    const auto from = static_cast<int>(unknowns_.size());
+    add(r);
+    unknowns_of_[at(r)] = {from, static_cast<int>(unknowns_.size()) - from};
+  }
+}
+
 /// The equations of the rows that hold, those that slip with the impulse that they have.
 template <int dim>
 void WallSystem<dim>::solve_active(std::span<RowState<dim>> rows) {
-  unknowns_.clear();
-  unknowns_of_.assign(rows.size(), {0, 0});
-  if (!ordered_) order_rows();
-  for (const int r : order_) {
+  list_unknowns([&](int r) {
     const RowState<dim>& row = rows[at(r)];
-    unknowns_of_[at(r)].first = static_cast<int>(unknowns_.size());
     const Vec<dim> u = velocity_[at(r)] - row.target;
     if (row.normal_held && (!row.pushes || row.lambda_n > 0.0))
       add_unknown(r, row.normal, row.bias - u.dot(row.normal) - yielding(r, row.normal) * row.lambda_n, true);
     if (row.tangent_held && row.sticks)
       add_tangents(r, row.normal, -u - yield * diagonal_[at(r)].cwiseProduct(row.lambda_t));
-    unknowns_of_[at(r)].second = static_cast<int>(unknowns_.size()) - unknowns_of_[at(r)].first;
-  }
+  });
   solve_unknowns();
   ++solves_;
   for (const int r : order_) {
@@ -173,19 +182,13 @@ void WallSystem<dim>::add_tangents(int r, const Vec<dim>& n, const Vec<dim>& lac
 
 template <int dim>
 void WallSystem<dim>::project(std::span<const RowState<dim>> rows, std::span<Vec<dim>> impulse) {
-  unknowns_.clear();
-  unknowns_of_.assign(rows.size(), {0, 0});
-  if (!ordered_) order_rows();
-  for (const int r : order_) {
+  list_unknowns([&](int r) {
     const RowState<dim>& row = rows[at(r)];
-    unknowns_of_[at(r)].first = static_cast<int>(unknowns_.size());
-    if (row.loaded()) {
-      const Vec<dim> u = velocity_[at(r)] - row.target;
-      if (row.normal_held) add_unknown(r, row.normal, row.bias - u.dot(row.normal), true);
-      if (row.tangent_held && row.sticks) add_tangents(r, row.normal, -u);
-    }
-    unknowns_of_[at(r)].second = static_cast<int>(unknowns_.size()) - unknowns_of_[at(r)].first;
-  }
+    if (!row.loaded()) return;
+    const Vec<dim> u = velocity_[at(r)] - row.target;
+    if (row.normal_held) add_unknown(r, row.normal, row.bias - u.dot(row.normal), true);
+    if (row.tangent_held && row.sticks) add_tangents(r, row.normal, -u);
+  });
   solve_unknowns();
   for (std::size_t k = 0; k < unknowns_.size(); ++k) {
     const Vec<dim> step = change_[k] * unknowns_[k].along;

@@ -27,7 +27,8 @@ struct RowState {
 /// Gauss and Seidel alone would need as many sweeps as the square of the rows along a wall. It only finds
 /// which rows carry what; the equations of those are solved at once, in turns (projected Gauss-Seidel with
 /// subspace minimisation, Silcowitz, Niebe and Erleben 2010): by a band of L D L^T, or where that is wide, as
-/// beside large surfaces in 3D, by conjugate gradients.
+/// beside large surfaces in 3D, by conjugate gradients. No library's factorisation: those allocate, and a
+/// step must not.
 ///
 /// A row yields by `yield` A_rr lambda_r, which makes rows that say the same twice share an impulse.
 template <int dim>
@@ -76,6 +77,8 @@ class WallSystem {
   double solve_tangent(RowState<dim>& row, int r);
   double sweep(std::span<RowState<dim>> rows, bool back);
   void solve_active(std::span<RowState<dim>> rows);
+  template <class Add>
+  void list_unknowns(Add&& add);
   void add_unknown(int r, const Vec<dim>& along, double lack, bool normal);
   void add_tangents(int r, const Vec<dim>& normal, const Vec<dim>& lack);
   void order_rows();

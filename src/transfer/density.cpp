@@ -1,9 +1,9 @@
 #include "transfer/density.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
+#include <vector>
 
 #include "parallel/session.h"
+#include "particle/mean_motion.h"
 #include "transfer/explicit_transfer.h"
 #include "transfer/filled_cells.h"
 #include "transfer/stencil_blocks.h"
@@ -57,52 +57,14 @@ void for_each_exchange(const Space<dim>& space, const Body<dim>& body, const std
                        });
 }
 
-/// Rigid motion, velocity c + w x (x - centre) of a body. In the plane w has one number.
+/// Centre of mass of points on all ranks. Collective.
 template <int dim>
-struct RigidMotion {
-  static constexpr int spins = dim == 2 ? 1 : 3;
-  using Spin = Eigen::Matrix<double, spins, 1>;
-  Vec<dim> centre, c;
-  Spin w;
-
-  static Spin cross(const Vec<dim>& x, const Vec<dim>& v) {
-    if constexpr (dim == 2)
-      return Spin(x[0] * v[1] - x[1] * v[0]);
-    else
-      return x.cross(v);
-  }
-  Vec<dim> at(const Vec<dim>& x) const {
-    if constexpr (dim == 2)
-      return c + w[0] * Vec<2>(-(x - centre)[1], (x - centre)[0]);
-    else
-      return c + w.cross(x - centre);
-  }
-};
-
-/// The motion of the points of a body (on all ranks) that has this momentum and moment of momentum about the
-/// origin. Collective.
-template <int dim>
-RigidMotion<dim> motion_with(const Particles<dim>& points, const Vec<dim>& momentum,
-                             const typename RigidMotion<dim>::Spin& moment) {
-  using Motion = RigidMotion<dim>;
+Vec<dim> centre_of(const Particles<dim>& points) {
   double mass = 0.0;
   Vec<dim> first = Vec<dim>::Zero();
   for (std::size_t p = 0; p < points.mass.size(); ++p)
     mass += points.mass[p], first += points.mass[p] * points.position[p];
-  mass = Session::sum(mass), first = Session::sum(first);
-  Motion motion{first / mass, momentum / mass, {}};
-  Eigen::Matrix<double, Motion::spins, Motion::spins> inertia;
-  inertia.setZero();
-  for (std::size_t p = 0; p < points.mass.size(); ++p) {
-    const Vec<dim> r = points.position[p] - motion.centre;
-    if constexpr (dim == 2)
-      inertia(0, 0) += points.mass[p] * r.squaredNorm();
-    else
-      inertia += points.mass[p] * (r.squaredNorm() * Mat<3>::Identity() - r * r.transpose());
-  }
-  inertia = Session::sum(inertia);
-  motion.w = inertia.ldlt().solve(moment - Motion::cross(motion.centre, momentum));
-  return motion;
+  return Vec<dim>(Session::sum(first) / Session::sum(mass));
 }
 
 }  // namespace
@@ -111,25 +73,16 @@ template <int dim>
 void add_density_pattern(const Space<dim>& space, const std::vector<Body<dim>>& bodies,
                          const ActiveCells& cells, BlockMatrix& matrix) {
   const Vec<dim> none = Vec<dim>::Zero();
-  std::vector<int> functions;
+  StencilSets sets(space.n_keys());
   std::visit(
       [&](const auto& basis) {
         if constexpr (!std::decay_t<decltype(basis)>::uses_domains) {
-          std::vector<char> seen(static_cast<std::size_t>(space.n_keys()), 0);
           for (std::size_t b = 0; b < bodies.size(); ++b)
             for_each_cell<dim>(space, basis, cells_inside(space, cells, b), to_mass_degree(basis),
                                [&](int, const std::vector<GaussPoint<dim>>& gauss) {
-                                 for (const auto& g : gauss) {
-                                   const auto stencil = basis.tabulate(g.x, none);
-                                   char& flag = seen[static_cast<std::size_t>(stencil.key())];
-                                   if (flag) continue;
-                                   flag = 1;
-                                   functions.resize(static_cast<std::size_t>(stencil.size()));
-                                   stencil.for_each([&](int k, int i, double, const Vec<dim>&) {
-                                     functions[static_cast<std::size_t>(k)] = i;
-                                   });
-                                   matrix.add_element(functions);
-                                 }
+                                 for (const auto& g : gauss)
+                                   sets.add(basis.tabulate(g.x, none),
+                                            [&](const auto& functions) { matrix.add_element(functions); });
                                });
         }
       },
@@ -143,31 +96,15 @@ void exchange_mass(const Space<dim>& space, const std::vector<Body<dim>>& bodies
   const auto flush = [&](std::span<const int> functions, const double* dense) {
     mass.add_scalar(functions, dense);
   };
-  std::visit(
-      [&](const auto& any) {
-        constexpr int n = std::decay_t<decltype(any)>::Stencil::max_functions;
-        StencilBlocks blocks(n, 1);
-        for (std::size_t b = 0; b < bodies.size(); ++b)
-          for_each_exchange<dim>(
-              space, bodies[b], cells_inside(space, cells, b),
-              [&](const auto& basis, const Vec<dim>& x, double m) {
-                if constexpr (std::is_same_v<std::decay_t<decltype(basis)>, std::decay_t<decltype(any)>>) {
-                  const auto stencil = basis.tabulate(x, none);
-                  double* const dense = blocks.find(
-                      stencil.key(),
-                      [&](int* functions) {
-                        stencil.for_each([&](int k, int i, double, const Vec<dim>&) { functions[k] = i; });
-                      },
-                      flush);
-                  double phi[n];
-                  stencil.for_each([&](int k, int, double value, const Vec<dim>&) { phi[k] = value; });
-                  for (int i = 0; i < n; ++i)
-                    for (int j = 0; j < n; ++j) dense[i * n + j] += m * phi[i] * phi[j];
-                }
-              });
-        blocks.finish(flush);
-      },
-      space.basis());
+  const int n = std::visit(
+      [](const auto& basis) { return std::decay_t<decltype(basis)>::Stencil::max_functions; }, space.basis());
+  StencilBlocks blocks(n, 1);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for_each_exchange<dim>(space, bodies[b], cells_inside(space, cells, b),
+                           [&](const auto& basis, const Vec<dim>& x, double m) {
+                             add_products(blocks, basis.tabulate(x, none), m, flush);
+                           });
+  blocks.finish(flush);
 }
 
 template <int dim>
@@ -187,11 +124,12 @@ void exchange_weight(const Space<dim>& space, const std::vector<Body<dim>>& bodi
 template <int dim>
 void balance_momentum(const Space<dim>& space, std::vector<Body<dim>>& bodies, const ActiveCells& cells,
                       std::span<const double> motion, double dt) {
+  using Sums = MotionSums<dim>;
   const Vec<dim> none = Vec<dim>::Zero();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Particles<dim>& points = bodies[b].points;
-    Vec<dim> momentum = Vec<dim>::Zero();
-    typename RigidMotion<dim>::Spin moment = RigidMotion<dim>::Spin::Zero();
+    const Vec<dim> centre = centre_of(points);
+    std::vector<double> sums(Sums::count, 0.0);
     bool any = false;
     for_each_exchange<dim>(space, bodies[b], cells_inside(space, cells, b),
                            [&](const auto& basis, const Vec<dim>& x, double m) {
@@ -200,14 +138,16 @@ void balance_momentum(const Space<dim>& space, std::vector<Body<dim>>& bodies, c
                                const double* const record = motion.data() + i * motion_stride<dim>;
                                for (int d = 0; d < dim; ++d) a[d] += phi * record[dim + d];
                              });
-                             momentum += m * dt * a, moment += m * dt * RigidMotion<dim>::cross(x, a);
+                             Sums::add_momentum(m * dt * a, x - centre, sums.data());
                              any = true;
                            });
     if (!Session::any_of(any)) continue;
-    momentum = Session::sum(momentum), moment = Session::sum(moment);
-    const RigidMotion<dim> rigid = motion_with<dim>(points, momentum, moment);
+    for (std::size_t p = 0; p < points.mass.size(); ++p)
+      Sums::add_mass(points.mass[p], points.position[p] - centre, sums.data());
+    Session::sum_in_place(sums);
+    const MeanMotion<dim> rigid = Sums::motion(sums.data());
     for (std::size_t p = 0; p < points.velocity.size(); ++p)
-      points.velocity[p] += rigid.at(points.position[p]);
+      points.velocity[p] += rigid.velocity(points.position[p] - centre);
   }
 }
 

@@ -20,17 +20,10 @@ template <int dim>
 void add_point_pattern(const Space<dim>& space, const std::vector<Body<dim>>& bodies, BlockMatrix& matrix) {
   std::visit(
       [&](const auto& basis) {
-        std::vector<char> seen(static_cast<std::size_t>(space.n_keys()), 0);
-        std::vector<int> functions;
+        StencilSets sets(space.n_keys());
         for (const auto& body : bodies)
           for_each_stencil<dim>(basis, body.points, [&](std::size_t, const auto& stencil) {
-            char& flag = seen[static_cast<std::size_t>(stencil.key())];
-            if (flag) return;
-            flag = 1;
-            functions.resize(static_cast<std::size_t>(stencil.size()));
-            stencil.for_each(
-                [&](int k, int i, double, const Vec<dim>&) { functions[static_cast<std::size_t>(k)] = i; });
-            matrix.add_element(functions);
+            sets.add(stencil, [&](const auto& functions) { matrix.add_element(functions); });
           });
       },
       space.basis());
@@ -47,20 +40,7 @@ void add_consistent_mass(const Space<dim>& space, const std::vector<Body<dim>>& 
         };
         for (const auto& body : bodies)
           for_each_stencil<dim>(basis, body.points, [&](std::size_t p, const auto& stencil) {
-            double* const dense = blocks.find(
-                stencil.key(),
-                [&](int* functions) {
-                  stencil.for_each([&](int k, int i, double, const Vec<dim>&) { functions[k] = i; });
-                },
-                flush);
-            double phi[n];
-            stencil.for_each([&](int k, int, double value, const Vec<dim>&) { phi[k] = value; });
-            const double m = body.points.mass[p];
-            for (int i = 0; i < n; ++i) {
-              const double row = m * phi[i];
-              double* const out = dense + i * n;
-              for (int j = 0; j < n; ++j) out[j] += row * phi[j];
-            }
+            add_products(blocks, stencil, body.points.mass[p], flush);
           });
         blocks.finish(flush);
       },

@@ -62,4 +62,42 @@ class StencilBlocks {
   std::size_t last_ = 0, next_ = 0;
 };
 
+/// Adds m phi_i phi_j to the block of a stencil's functions.
+template <class Stencil, class Flush>
+void add_products(StencilBlocks& blocks, const Stencil& stencil, double m, Flush&& flush) {
+  constexpr int n = Stencil::max_functions;
+  double* const dense = blocks.find(
+      stencil.key(),
+      [&](int* functions) { stencil.for_each([&](int k, int i, double, const auto&) { functions[k] = i; }); },
+      flush);
+  double phi[n];
+  stencil.for_each([&](int k, int, double value, const auto&) { phi[k] = value; });
+  for (int i = 0; i < n; ++i) {
+    const double row = m * phi[i];
+    double* const out = dense + i * n;
+    for (int j = 0; j < n; ++j) out[j] += row * phi[j];
+  }
+}
+
+/// Sets of functions by the keys of their stencils, each handed on once.
+class StencilSets {
+ public:
+  explicit StencilSets(int n_keys) : seen_(static_cast<std::size_t>(n_keys), 0) {}
+
+  /// Calls f(functions) for a set that has not been met before.
+  template <class Stencil, class F>
+  void add(const Stencil& stencil, F&& f) {
+    char& flag = seen_[static_cast<std::size_t>(stencil.key())];
+    if (flag) return;
+    flag = 1;
+    functions_.resize(static_cast<std::size_t>(stencil.size()));
+    stencil.for_each([&](int k, int i, double, const auto&) { functions_[static_cast<std::size_t>(k)] = i; });
+    f(functions_);
+  }
+
+ private:
+  std::vector<char> seen_;
+  std::vector<int> functions_;
+};
+
 }  // namespace wisp

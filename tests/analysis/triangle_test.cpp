@@ -44,24 +44,30 @@ TEST(Triangles, PatchIsUniformOnAnIrregularTriangulation) {
   }
 }
 
+/// A body that fills the triangulation of an outline; nu = 0.3.
+ModelOptions filled(const std::vector<std::vector<double>>& outline, const AnyBasisOptions& basis) {
+  ModelOptions o;
+  DelaunayOptions grid;
+  grid.outline.vertices = outline;
+  grid.spacing = 0.3;
+  o.triangulation = grid;
+  o.basis = basis;
+  Polygon shape;
+  shape.vertices = outline;
+  BodyOptions body;
+  body.label = "body", body.shape = shape, body.material = LinearElastic{1.0, 1000.0, 0.3};
+  body.sampling.points_per_cell = 6;
+  o.bodies.push_back(body);
+  return o;
+}
+
 TEST(Triangles, SplinesAreHeldAlongOneSideOfACornerThatTurnsInwards) {
   // An L is pulled apart in y about the line y = 1, the side of its corner that holds y; the corner's other
   // side, on x = 1, holds x. The exact field is u = (-nu/(1 - nu) b (x - 1), b (y - 1)).
   const double nu = 0.3, b = 1e-3;
   PowellSabinOptions sides;
   sides.control_triangles = ControlTriangleRule::corner_sides;
-  ModelOptions o;
-  DelaunayOptions grid;
-  grid.outline.vertices = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-  grid.spacing = 0.3;
-  o.triangulation = grid;
-  o.basis = sides;
-  Polygon shape;
-  shape.vertices = grid.outline.vertices;
-  BodyOptions body;
-  body.label = "L", body.shape = shape, body.material = LinearElastic{1.0, 1000.0, nu};
-  body.sampling.points_per_cell = 6;
-  o.bodies.push_back(body);
+  ModelOptions o = filled({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, sides);
   hold_part(o, "side 3", "y"), hold_part(o, "side 4", "x");
   hold_part(o, "side 1", "y").displacement = ramp(-b);
   hold_part(o, "side 5", "y").displacement = ramp(b);
@@ -86,19 +92,7 @@ TEST(Triangles, SplinesAreHeldAlongOneSideOfACornerThatTurnsInwards) {
 
 /// A slab, 2 m wide, whose upper side is bent at its middle (1, 1 + rise): side 3 is the right half of it.
 ModelOptions bent_slab(double rise, const AnyBasisOptions& basis) {
-  ModelOptions o;
-  DelaunayOptions grid;
-  grid.outline.vertices = {{0, 0}, {2, 0}, {2, 1}, {1, 1 + rise}, {0, 1}};
-  grid.spacing = 0.3;
-  o.triangulation = grid;
-  o.basis = basis;
-  Polygon shape;
-  shape.vertices = grid.outline.vertices;
-  BodyOptions body;
-  body.label = "slab", body.shape = shape, body.material = LinearElastic{1.0, 1000.0, 0.3};
-  body.sampling.points_per_cell = 6;
-  o.bodies.push_back(body);
-  return o;
+  return filled({{0, 0}, {2, 0}, {2, 1}, {1, 1 + rise}, {0, 1}}, basis);
 }
 
 TEST(Triangles, SplinesAreHeldAlongOneSideOfANearlyStraightKink) {

@@ -10,36 +10,19 @@
 #include "transfer/explicit_transfer.h"
 #include "transfer/mass.h"
 #include "transfer/reconstruction.h"
+#include "transfer/unit_grids.h"
 
 namespace wisp {
 namespace {
 
+using namespace transfer_test;
+
 constexpr int n = 5;  // cells a side, of side 1
-
-std::unique_ptr<Space<2>> squares(const AnyBasisOptions& basis) {
-  std::array<std::vector<double>, 2> lines;
-  for (int i = 0; i <= n; ++i) lines[0].push_back(i), lines[1].push_back(i);
-  const StructuredGrid<2> grid(lines);
-  return std::make_unique<Space<2>>(grid, BoxPartition<2>(grid.cells()), basis);
-}
-
-std::unique_ptr<Space<2>> triangles(const AnyBasisOptions& basis) {
-  std::vector<Vec<2>> vertices;
-  std::vector<std::array<int, 3>> list;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) vertices.emplace_back(i, j);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
-      list.push_back({a, b, c}), list.push_back({a, c, d});
-    }
-  return std::make_unique<Space<2>>(std::make_shared<const Triangulation>(vertices, list), basis);
-}
 
 std::vector<std::unique_ptr<Space<2>>> spaces() {
   std::vector<std::unique_ptr<Space<2>>> list;
-  list.push_back(squares(LinearOptions{})), list.push_back(squares(BSplineOptions{}));
-  list.push_back(triangles(LinearOptions{})), list.push_back(triangles(PowellSabinOptions{}));
+  list.push_back(squares(n, LinearOptions{})), list.push_back(squares(n, BSplineOptions{}));
+  list.push_back(triangles(n, LinearOptions{}, 2)), list.push_back(triangles(n, PowellSabinOptions{}, 2));
   return list;
 }
 
@@ -110,7 +93,7 @@ TEST(ReconstructedDensity, KeepsTheMassWhateverThePoints) {
 TEST(ReconstructedDensity, IntegratesALinearDensityExactly) {
   // Hats on squares of side 1: the integrals of phi_i^2 and phi_i phi_{i+1} are 4/9 and 1/9, and a linear
   // density has the value of their middle. Lattices have the volume and the centroid of their cell.
-  const auto space = squares(LinearOptions{});
+  const auto space = squares(n, LinearOptions{});
   const auto bodies = bodies_on(*space, 2, false);
   const Masses masses(*space, bodies);
   for (int j = 1; j < n - 1; ++j)
@@ -243,7 +226,7 @@ TEST(ReconstructedDensity, PointsTakeTheMomentumOfTheGridInSpace) {
 TEST(Reconstruction, KeepsTrianglesThatLosePointsOnTheirEdges) {
   // 8 x 8 points a block of two triangles lie on the diagonal too. Whichever side they fall on, the same
   // triangles count as filled, so that no force jumps.
-  const auto space = triangles(PowellSabinOptions{});
+  const auto space = triangles(n, PowellSabinOptions{}, 2);
   std::vector<int> smoothed;
   for (const double shift : {1e-9, -1e-9}) {
     auto bodies = bodies_on(*space, 4, false);

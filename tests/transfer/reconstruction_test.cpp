@@ -7,9 +7,12 @@
 #include <random>
 
 #include "transfer/explicit_transfer.h"
+#include "transfer/unit_grids.h"
 
 namespace wisp {
 namespace {
+
+using namespace transfer_test;
 
 /// sigma(x) = constant + x gradient_x + y gradient_y, in the plane.
 struct StressField {
@@ -76,30 +79,6 @@ std::vector<Vec<2>> forces(const Space<2>& space, std::vector<Body<2>> bodies) {
   return list;
 }
 
-std::unique_ptr<Space<2>> squares(int n) {
-  std::array<std::vector<double>, 2> lines;
-  for (int i = 0; i <= n; ++i) lines[0].push_back(i), lines[1].push_back(i);
-  const StructuredGrid<2> grid(lines);
-  return std::make_unique<Space<2>>(grid, BoxPartition<2>(grid.cells()), false);
-}
-
-std::unique_ptr<Space<2>> triangles(int n, const AnyBasisOptions& basis) {
-  std::vector<Vec<2>> vertices;
-  std::vector<std::array<int, 3>> list;
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) vertices.emplace_back(i, j);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = c - 1;
-      const int m = static_cast<int>(vertices.size());
-      vertices.emplace_back(i + 0.5, j + 0.5);
-      for (const auto& t :
-           {std::array{a, b, m}, std::array{b, c, m}, std::array{c, d, m}, std::array{d, a, m}})
-        list.push_back(t);
-    }
-  return std::make_unique<Space<2>>(std::make_shared<const Triangulation>(vertices, list), basis);
-}
-
 /// Functions of vertices that lie inside the grid.
 bool inside(const Space<2>& space, int i, int n) {
   const Vec<2> x = space.node_position(i);
@@ -111,7 +90,8 @@ constexpr int n = 5;
 TEST(Reconstruction, OfConstantStressLeavesNoForceInside) {
   StressField field = linear_field();
   field.gradient_x.setZero(), field.gradient_y.setZero();
-  for (const auto& space : {squares(n), triangles(n, LinearOptions{}), triangles(n, PowellSabinOptions{})}) {
+  for (const auto& space :
+       {squares(n), triangles(n, LinearOptions{}, 4), triangles(n, PowellSabinOptions{}, 4)}) {
     const auto f = forces(*space, {random_body(n, field)});
     double points_only = 0.0;
     std::vector<double> sums(static_cast<std::size_t>(space->n_functions() * sums_stride<2>), 0.0);
@@ -146,7 +126,7 @@ TEST(Reconstruction, GivesTheDivergenceTimesTheFunctionsIntegralOnTriangles) {
   two.gradient_y(1, 1) = 2.0, two.constant(0, 0) = 9;  // divergence (0, 2)
   for (const AnyBasisOptions& basis :
        {AnyBasisOptions(LinearOptions{}), AnyBasisOptions(PowellSabinOptions{})}) {
-    const auto space = triangles(n, basis);
+    const auto space = triangles(n, basis, 4);
     const auto a = forces(*space, {random_body(n, one)}), b = forces(*space, {random_body(n, two)});
     for (int i = 0; i < space->n_functions(); ++i) {
       if (!inside(*space, i, n)) continue;
@@ -160,7 +140,7 @@ TEST(Reconstruction, GivesTheDivergenceTimesTheFunctionsIntegralOnTriangles) {
 }
 
 TEST(Reconstruction, KeepsTheSumOfForcesAndLeavesTheEdgeOfTheBodyToThePoints) {
-  const auto space = triangles(n, PowellSabinOptions{});
+  const auto space = triangles(n, PowellSabinOptions{}, 4);
   Body<2> body = random_body(n, linear_field());
   // Without the points beyond x = 3.2 the triangles there are empty, and those beside them not filled.
   auto& states = std::get<MaterialStates<LinearElastic, 2>>(body.material).old;
@@ -268,7 +248,7 @@ TEST(Reconstruction, StrainsPointsByWhatItsForceWorksOn) {
 
 TEST(Reconstruction, LeavesSmoothGradientsAsTheyAre) {
   // The coefficients of v = A x are A Q with Q the functions' places.
-  for (const auto& space : {squares(n), triangles(n, LinearOptions{})}) {
+  for (const auto& space : {squares(n), triangles(n, LinearOptions{}, 4)}) {
     Mat<2> a;
     a << 0.3, -1.2, 0.8, 0.5;
     std::vector<double> velocity;

@@ -17,11 +17,11 @@ using namespace powell_sabin;
 VibratingBar exact_bar(const StripCase& s) { return {s.density, s.young_modulus, s.length, s.speed}; }
 
 /// L2 error of the displacement at t = 0.02 s with steps of 1e-5 s (thesis, section 4.1).
-double error_of_table(int blocks, bool splines, int points, int points_across, bool reconstructed = false,
-                      bool mass_too = false) {
+double error_of_table(int blocks, bool splines, int points, int points_across,
+                      Integration integration = Integration::points) {
   StripCase s = small_bar();
   s.blocks = blocks, s.splines = splines, s.points = points, s.points_across = points_across;
-  s.reconstructed = reconstructed, s.reconstructed_mass = mass_too;
+  s.integration = integration;
   s.dt = 1e-5, s.duration = 0.02, s.record_every = 1000;
   const VibratingBar exact = exact_bar(s);
   return run_strip(s).field_error([&](double x) { return exact.displacement(x, 0.02); });
@@ -80,14 +80,14 @@ std::vector<VerificationRow> table_4_3(const VerificationRequest& request) {
   VerificationRow reconstructed;
   reconstructed.case_name = "17 columns of vertices, 56 points a triangle, stress reconstructed";
   reconstructed.quantity = "L2 error of the displacement (m2)";
-  reconstructed.computed = error_of_table(16, true, 16, 14, true);
+  reconstructed.computed = error_of_table(16, true, 16, 14, Integration::reconstructed);
   reconstructed.gated = true, reconstructed.verdict = reconstructed.computed < c.error.back();
   rows.push_back(reconstructed);
   // Six points a triangle instead of 56, whose sums are far off; with stress and density reconstructed the
   // error is that of the functions again.
   const double few = error_of_table(16, true, 6, 4);
-  const double few_stress = error_of_table(16, true, 6, 4, true);
-  const double few_both = error_of_table(16, true, 6, 4, true, true);
+  const double few_stress = error_of_table(16, true, 6, 4, Integration::reconstructed);
+  const double few_both = error_of_table(16, true, 6, 4, Integration::reconstructed_mass);
   const std::string few_name = "17 columns of vertices, 6 points a triangle";
   const std::string error = "L2 error of the displacement (m2)";
   rows.push_back(number(few_name, error, few));

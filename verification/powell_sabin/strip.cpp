@@ -129,8 +129,7 @@ StripRun run_strip(const StripCase& s) {
   ExplicitOptions options;
   options.duration = s.duration, options.dt = s.dt;
   options.stress_update = StressUpdate::projected;
-  if (s.reconstructed) options.integration = Integration::reconstructed;
-  if (s.reconstructed_mass) options.integration = Integration::reconstructed_mass;
+  options.integration = s.integration;
   options.mass = s.mass, options.fmpm_order = s.fmpm_order, options.deactivate_below = s.deactivate_below;
   Explicit<2> analysis(model, options);
   StripRun run;

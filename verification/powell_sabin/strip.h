@@ -31,7 +31,7 @@ struct StripCase {
   int fmpm_order = 4;
   double deactivate_below = 0.0;  ///< kg
   std::optional<GhostOptions> ghost;
-  bool reconstructed = false, reconstructed_mass = false;
+  Integration integration = Integration::points;
   double dt = 1e-4, duration = 1.0;
   /// Velocities start at -dt/2, which makes the symplectic Euler steps those of the leapfrog: without it the
   /// column is g dt t/2 off at once.

@@ -18,17 +18,24 @@ struct MeanMotion {
 };
 
 /// Sums over points from which their mean rigid motion follows; they may be added over ranks. `count`
-/// numbers: mass, momentum, first moments, sum m v r^T and sum m r r^T, all about one origin.
+/// numbers: mass (kg), momentum (N s), first moments (kg m), sum m v r^T and sum m r r^T, all about one
+/// origin.
 template <int dim>
 struct MotionSums {
   static constexpr std::size_t count = 1 + 2 * dim + 2 * dim * dim;
 
   static void add(double mass, const Vec<dim>& r, const Vec<dim>& v, double* sums) {
+    add_mass(mass, r, sums);
+    add_momentum(mass * v, r, sums);
+  }
+  static void add_mass(double mass, const Vec<dim>& r, double* sums) {
     sums[0] += mass;
-    Eigen::Map<Vec<dim>>(sums + 1) += mass * v;
     Eigen::Map<Vec<dim>>(sums + 1 + dim) += mass * r;
-    Eigen::Map<Mat<dim>>(sums + 1 + 2 * dim) += mass * v * r.transpose();
     Eigen::Map<Mat<dim>>(sums + 1 + 2 * dim + dim * dim) += mass * r * r.transpose();
+  }
+  static void add_momentum(const Vec<dim>& momentum, const Vec<dim>& r, double* sums) {
+    Eigen::Map<Vec<dim>>(sums + 1) += momentum;
+    Eigen::Map<Mat<dim>>(sums + 1 + 2 * dim) += momentum * r.transpose();
   }
 
   /// The motion with the momentum and angular momentum of the points. Without mass all is zero; points in one

@@ -1,4 +1,4 @@
-#include "boundary/mean_motion.h"
+#include "particle/mean_motion.h"
 
 #include <gtest/gtest.h>
 
