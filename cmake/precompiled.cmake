@@ -1,12 +1,12 @@
-# Precompiled headers of what nearly every file includes: a tenth of a build from nothing. For builds without
-# optimisation and without a compiler cache, such as the sanitizer build of ./test: caches cannot store what was compiled
-# with them, and in optimised builds g++ 12 warns of the standard library's strings.
-option(WISP_PRECOMPILE "Precompile the headers of Eigen, fmt and the standard library" OFF)
+# Precompiled headers of what nearly every file includes: a third of a build from nothing. For builds without a compiler
+# cache, such as those of continuous integration: caches cannot store what was compiled with them.
+option(WISP_PRECOMPILE "Precompile the headers of Eigen, fmt, the standard library and the model" OFF)
 
 # wisp_precompiled(NAME HEADER...): a library that has them, for targets of the same options.
 function(wisp_precompiled name)
   add_library(${name} STATIC ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
-  target_link_libraries(${name} PRIVATE wisp_options Eigen3::Eigen fmt::fmt)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name} PRIVATE wisp_options Eigen3::Eigen fmt::fmt spdlog::spdlog PkgConfig::PETSC PkgConfig::TOML)
   target_precompile_headers(${name} PRIVATE
     <algorithm> <array> <cmath> <filesystem> <functional> <memory> <optional> <span> <string> <string_view> <tuple>
     <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h> ${ARGN})

@@ -27,20 +27,25 @@ foreach(target PETSC SLEPC MPI TOML HDF5)
   # Debian's flags carry -I and -D_FORTIFY_SOURCE, which warns in builds without optimisation.
   set_property(TARGET PkgConfig::${target} PROPERTY INTERFACE_COMPILE_OPTIONS "")
 endforeach()
-# The definitions among the flags that were dropped: toml++ is a shared library here.
-set_property(TARGET PkgConfig::TOML PROPERTY INTERFACE_COMPILE_DEFINITIONS TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
 foreach(target PETSC SLEPC)
   target_link_libraries(PkgConfig::${target} INTERFACE PkgConfig::MPI)
 endforeach()
 add_library(wisp_boost INTERFACE)
 
+include(cmake/precompiled.cmake)
 add_library(wisp_options INTERFACE)
 target_compile_options(wisp_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # g++ 12 sees uninitialised values in its own AVX-512 header (GCC bug 105593), overlaps in sums of strings (105651).
   target_compile_options(wisp_options INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized -Wno-restrict)
+  if(WISP_PRECOMPILE)  # and overflows in the standard library's strings, which it takes for ours from such headers
+    target_compile_options(wisp_options INTERFACE -Wno-stringop-overflow -Wno-array-bounds)
+  endif()
 endif()
-target_compile_definitions(wisp_options INTERFACE OMPI_SKIP_MPICXX PETSC_SKIP_CXX_COMPLEX_FIX)
+target_compile_definitions(wisp_options INTERFACE OMPI_SKIP_MPICXX PETSC_SKIP_CXX_COMPLEX_FIX
+  TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)  # toml++ is a shared library here; its flags were dropped above
+target_compile_definitions(wisp_options INTERFACE
+  WISP_SPLINE_DEGREE_2D=${WISP_SPLINE_DEGREE_2D} WISP_SPLINE_DEGREE_3D=${WISP_SPLINE_DEGREE_3D})
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   # No -ffast-math: results must not depend on the compiler's mood. These two only drop errno and signalling NaNs.
   target_compile_options(wisp_options INTERFACE -fno-math-errno -fno-trapping-math)
@@ -60,9 +65,10 @@ if(WISP_SANITIZE)
   target_compile_definitions(wisp_options INTERFACE always_inline=unused flatten=unused)
 endif()
 
-include(cmake/precompiled.cmake)
 if(WISP_PRECOMPILE)
   wisp_precompiled(wisp_precompiled)
+  wisp_precompiled(wisp_precompiled_model  # for the rooms that use the grid
+    ${PROJECT_SOURCE_DIR}/src/analysis/model.h ${PROJECT_SOURCE_DIR}/src/io/case.h)
 endif()
 
 set(WISP_ROOMS "" CACHE INTERNAL "")
@@ -72,7 +78,11 @@ function(wisp_room name layer)
   list(TRANSFORM ROOM_ROOMS PREPEND wisp_)
   if(sources)
     add_library(wisp_${name} STATIC ${sources})
-    wisp_use_precompiled(wisp_${name} wisp_precompiled)
+    if(layer GREATER 2)
+      wisp_use_precompiled(wisp_${name} wisp_precompiled_model)
+    else()
+      wisp_use_precompiled(wisp_${name} wisp_precompiled)
+    endif()
     set(scope PUBLIC)
   else()
     add_library(wisp_${name} INTERFACE)
@@ -88,7 +98,7 @@ function(wisp_verification)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/verification/*/*.cpp ${PROJECT_SOURCE_DIR}/verification/*.cpp)
   if(sources)
     add_library(wisp_verification STATIC ${sources})
-    wisp_use_precompiled(wisp_verification wisp_precompiled)
+    wisp_use_precompiled(wisp_verification wisp_precompiled_model)
     target_include_directories(wisp_verification PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(wisp_verification PUBLIC wisp_app)
   endif()

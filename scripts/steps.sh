@@ -57,12 +57,13 @@ install_packages() {
   "${sudo[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -y -o Dpkg::Use-Pty=0 install --no-install-recommends "${missing[@]}"
 }
 
-# configure DIRECTORY [option...]: CMake with Ninja, and ccache if it is installed.
+# configure DIRECTORY [option...]: CMake with Ninja, and ccache if it is installed, otherwise precompiled headers: they
+# save a third of a build from nothing, and ccache cannot store what was compiled with them.
 configure() {
-  local directory=$1 launcher=()
+  local directory=$1 launcher=(-DWISP_PRECOMPILE=ON)
   shift
   if command -v ccache >/dev/null; then
-    launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    launcher=(-DWISP_PRECOMPILE=OFF -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   fi
   cmake -S . -B "$directory" -G Ninja "${launcher[@]}" "$@"
 }

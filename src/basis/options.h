@@ -21,6 +21,11 @@ struct GimpOptions {
   static constexpr auto keys() { return std::tuple{}; }
 };
 
+/// The highest degree of B-splines that runs in 2D or 3D can have (CMake: WISP_SPLINE_DEGREE_2D, ..._3D).
+constexpr int highest_spline_degree(int dim) {
+  return dim == 2 ? WISP_SPLINE_DEGREE_2D : WISP_SPLINE_DEGREE_3D;
+}
+
 struct BSplineOptions {
   int degree = 2;
 
@@ -30,10 +35,9 @@ struct BSplineOptions {
   static constexpr std::string_view source = "Cox 1972; de Boor 1972; de Koster 2018, section 3.4";
   static constexpr auto keys() {
     return std::tuple{key("degree", &BSplineOptions::degree, "-",
-                          "of the pieces, whose derivatives are continuous up to degree - 1; 1 is linear, at "
-                          "most 4 (2D) or 3 (3D)")
-                          .at_least(1)
-                          .at_most(4)};
+                          "of the pieces, whose derivatives are continuous up to degree - 1; 1 is linear; "
+                          "built are 4 (2D) and 3 (3D), higher ones with WISP_SPLINE_DEGREE_2D and _3D")
+                          .at_least(1)};
   }
 };
 

@@ -15,17 +15,17 @@ int Space<dim>::degree_of(const AnyBasisOptions& options) {
 
 template <int dim>
 void Space<dim>::make_splines() {
+  constexpr int highest = highest_spline_degree(dim);
+  if (degree_ > highest)
+    input_error(
+        "basis 'b-spline': degree {} is not built in {}D, where the highest is {}; configure with "
+        "-DWISP_SPLINE_DEGREE_{}D={} for more",
+        degree_, dim, highest, dim, degree_);
   const NodeNumbering<dim> numbering(*window_);
-  if (degree_ == 2)
-    basis_ = BSpline<dim, 2>(*grid_, numbering);
-  else if (degree_ == 3)
-    basis_ = BSpline<dim, 3>(*grid_, numbering);
-  else if constexpr (dim == 2) {
-    if (degree_ == 4) basis_ = BSpline<dim, 4>(*grid_, numbering);
-  }
-  if (std::visit([](const auto& b) { return b.degree; }, basis_) != degree_)
-    input_error("basis 'b-spline': degree {} is not built in {}D, where the highest is {}", degree_, dim,
-                dim == 2 ? 4 : 3);
+  const auto make = [&]<int... more>(std::integer_sequence<int, more...>) {
+    ((degree_ == 2 + more ? (void)(basis_ = BSpline<dim, 2 + more>(*grid_, numbering)) : void()), ...);
+  };
+  make(std::make_integer_sequence<int, highest - 1>());
 }
 
 template int Space<2>::degree_of(const AnyBasisOptions&);

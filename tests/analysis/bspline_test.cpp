@@ -1,4 +1,5 @@
 // B-splines as the basis of a run: patches, free flight, a vibrating bar, cell crossing, what they refuse.
+#include <algorithm>
 #include <numbers>
 
 #include "analysis/fixtures.h"
@@ -47,7 +48,8 @@ void patch(int degree) {
 }
 
 TEST(BSplines, PatchIsUniform) {
-  for (const int degree : {2, 3}) patch<2>(degree), patch<3>(degree);
+  for (int degree = 2; degree <= highest_spline_degree(2); ++degree) patch<2>(degree);
+  for (int degree = 2; degree <= highest_spline_degree(3); ++degree) patch<3>(degree);
 }
 
 template <int dim>
@@ -72,8 +74,11 @@ void fly(int degree, MassKind kind) {
 
 TEST(BSplines, TranslationIsExactAndStressFree) {
   for (const MassKind kind : {MassKind::lumped, MassKind::ghost}) {
-    for (const int degree : {1, 2, 3, 4}) fly<2>(degree, kind);
-    for (const int degree : {2, 3}) fly<3>(degree, kind);
+    // Above degree 4 the mass with Ghost is too ill-conditioned for these bounds (docs/theory/b-splines.md).
+    const int highest =
+        kind == MassKind::ghost ? std::min(4, highest_spline_degree(2)) : highest_spline_degree(2);
+    for (int degree = 1; degree <= highest; ++degree) fly<2>(degree, kind);
+    for (int degree = 2; degree <= highest_spline_degree(3); ++degree) fly<3>(degree, kind);
   }
 }
 
@@ -242,7 +247,7 @@ TEST(BSplines, RefuseWhatTheyCannotDo) {
   refused([](ModelOptions& o) { hold(o, "x", 0.5, "x"); }, "edges of the grid");
   refused([](ModelOptions& o) { pin(o, {0.0, -1.0}, "x"); }, "edges of the grid");
   refused([](ModelOptions& o) { o.boundaries.push_back(WallOptions{}); }, "linear or GIMP");
-  refused([](ModelOptions& o) { o.basis = splines(5); }, "degree 5 is not built");
+  refused([](ModelOptions& o) { o.basis = splines(highest_spline_degree(2) + 1); }, "is not built in 2D");
   refused(
       [](ModelOptions& o) {
         TriangleBlocksOptions blocks;
