@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "analysis/explicit.h"
 #include "analysis/implicit.h"
@@ -91,7 +92,7 @@ ModelOptions block(int points, bool gimp) {
     roller.normal = std::string(1, "xyz"[d]);
     roller.at = 0.0;
     roller.directions = {roller.normal};
-    o.boundaries.push_back(roller);
+    o.boundaries.emplace_back(std::move(roller));
   }
   return o;
 }

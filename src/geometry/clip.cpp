@@ -242,7 +242,7 @@ std::vector<Vector<2>> gauss_points(const ClippedTriangle& part) {
   std::vector<Vector<2>> points;
   for (int k = 0; k < 3; ++k) {
     const double a = turn + 2.0 * std::numbers::pi / 3.0 * k;
-    points.push_back(part.centroid + std::numbers::sqrt2 * (l * Vector<2>(std::cos(a), std::sin(a))));
+    points.emplace_back(part.centroid + std::numbers::sqrt2 * (l * Vector<2>(std::cos(a), std::sin(a))));
   }
   return points;
 }

@@ -103,7 +103,7 @@ std::vector<VerificationRow> blocks(const VerificationRequest& request) {
   Reference shown_reference;
   std::vector<double> ghost;
   double worst_condition = 0.0;
-  Steps steps("near-empty.blocks", grids.size() * std::size(treatments));
+  Steps steps("near-empty.blocks", 3 * std::size(treatments) + 2 * (grids.size() - 3));
   for (const StripCase& grid : grids) {
     errors.front().values.push_back(grid.length / grid.blocks);
     double lumped = 0.0;
@@ -111,13 +111,17 @@ std::vector<VerificationRow> blocks(const VerificationRequest& request) {
     std::vector<std::pair<std::string, StripRun>> runs;
     for (std::size_t k = 0; k < std::size(treatments); ++k) {
       const Treatment& t = treatments[k];
+      if (grid.blocks > 16 && t.mass != Mass::lumped && !t.ghost) {  // hours, and nothing is asked of them
+        errors[k + 1].values.push_back(std::nan(""));
+        continue;
+      }
       StripCase s = treated(grid, t);
       s.with_conditions = t.ghost;
       const StripRun run = run_strip(s);
       const std::string name = std::string(t.name) + ", " + grid_name(s);
-      steps.done(name);
       if (run.stable() && reference.time.empty()) reference = ulfem_reference(s, run.middle, run.time);
       const double error = run.stable() ? largest_error(run, reference) : std::nan("");
+      steps.done(fmt::format("{}: error {:.3e} m", name, error));
       errors[k + 1].values.push_back(error);
       if (run.stable()) {
         rows.push_back(number(name, "largest displacement error (m)", error));
