@@ -121,7 +121,7 @@ std::vector<VerificationRow> blocks(const VerificationRequest& request) {
       const std::string name = std::string(t.name) + ", " + grid_name(s);
       if (run.stable() && reference.time.empty()) reference = ulfem_reference(s, run.middle, run.time);
       const double error = run.stable() ? largest_error(run, reference) : std::nan("");
-      steps.done(fmt::format("{}: error {:.3e} m", name, error));
+      steps.done(name + (run.stable() ? fmt::format(": error {:.3e} m", error) : ": unstable"));
       errors[k + 1].values.push_back(error);
       if (run.stable()) {
         rows.push_back(number(name, "largest displacement error (m)", error));
