@@ -297,10 +297,10 @@ HistoryColumns<dim>::HistoryColumns(const Case& c, const Model<dim>& model) : ou
         titles_.push_back(fmt::format("{} {} {} [{}]", plain(track.label), what, "xyz"[d], unit));
   for (const auto& stage : c.stages) newton_ |= !std::holds_alternative<ExplicitOptions>(stage);
   if (newton_) titles_.insert(titles_.end(), {"iterations", "residual", "cuts"});
-  if (output_.condition_numbers) titles_.push_back("condition number [-]");
-  if (output_.critical_time_step) titles_.push_back("critical time step [s]");
+  if (output_.condition_numbers) titles_.emplace_back("condition number [-]");
+  if (output_.critical_time_step) titles_.emplace_back("critical time step [s]");
   removal_ = leaving(c.grid) == Leaving::remove;
-  if (removal_) titles_.push_back("points removed");
+  if (removal_) titles_.emplace_back("points removed");
 }
 
 template <int dim>
