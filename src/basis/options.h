@@ -1,5 +1,7 @@
 // What a case file says about the basis.
 #pragma once
+#include <algorithm>
+
 #include "core/describe.h"
 #include "grid/control_triangle.h"
 
@@ -37,7 +39,8 @@ struct BSplineOptions {
     return std::tuple{key("degree", &BSplineOptions::degree, "-",
                           "of the pieces, whose derivatives are continuous up to degree - 1; 1 is linear; "
                           "built are 4 (2D) and 3 (3D), higher ones with WISP_SPLINE_DEGREE_2D and _3D")
-                          .at_least(1)};
+                          .at_least(1)
+                          .at_most(std::max(highest_spline_degree(2), highest_spline_degree(3)))};
   }
 };
 

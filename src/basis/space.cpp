@@ -6,7 +6,15 @@ namespace wisp {
 
 template <int dim>
 int Space<dim>::degree_of(const AnyBasisOptions& options) {
-  if (const auto* splines = std::get_if<BSplineOptions>(&options)) return splines->degree;
+  constexpr int highest = highest_spline_degree(dim);
+  if (const auto* splines = std::get_if<BSplineOptions>(&options)) {
+    if (splines->degree > highest)
+      input_error(
+          "basis 'b-spline': degree {} is not built in {}D, where the highest is {}; configure with "
+          "-DWISP_SPLINE_DEGREE_{}D={} for more",
+          splines->degree, dim, highest, dim, splines->degree);
+    return splines->degree;
+  }
   if (!std::holds_alternative<LinearOptions>(options) && !std::holds_alternative<GimpOptions>(options))
     input_error("basis '{}' needs a triangulation; structured grids have linear, gimp and b-spline",
                 std::visit([](const auto& o) { return o.name; }, options));
@@ -15,17 +23,11 @@ int Space<dim>::degree_of(const AnyBasisOptions& options) {
 
 template <int dim>
 void Space<dim>::make_splines() {
-  constexpr int highest = highest_spline_degree(dim);
-  if (degree_ > highest)
-    input_error(
-        "basis 'b-spline': degree {} is not built in {}D, where the highest is {}; configure with "
-        "-DWISP_SPLINE_DEGREE_{}D={} for more",
-        degree_, dim, highest, dim, degree_);
   const NodeNumbering<dim> numbering(*window_);
   const auto make = [&]<int... more>(std::integer_sequence<int, more...>) {
     ((degree_ == 2 + more ? (void)(basis_ = BSpline<dim, 2 + more>(*grid_, numbering)) : void()), ...);
   };
-  make(std::make_integer_sequence<int, highest - 1>());
+  make(std::make_integer_sequence<int, highest_spline_degree(dim) - 1>());
 }
 
 template int Space<2>::degree_of(const AnyBasisOptions&);
