@@ -1,4 +1,5 @@
-# Precompiled headers of what nearly every file includes: a third of a build from nothing. For builds without a compiler
+# Precompiled headers of what nearly every file includes: a third of an optimised build from nothing, a twentieth of one
+# without optimisation. For builds without a compiler
 # cache, such as those of continuous integration: caches cannot store what was compiled with them.
 option(WISP_PRECOMPILE "Precompile the headers of Eigen, fmt, the standard library and the model" OFF)
 

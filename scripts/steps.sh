@@ -58,7 +58,7 @@ install_packages() {
 }
 
 # configure DIRECTORY [option...]: CMake with Ninja, and ccache if it is installed, otherwise precompiled headers: they
-# save a third of a build from nothing, and ccache cannot store what was compiled with them.
+# save a third of an optimised build from nothing, and ccache cannot store what was compiled with them.
 configure() {
   local directory=$1 launcher=(-DWISP_PRECOMPILE=ON)
   shift
