@@ -1,6 +1,6 @@
 # Precompiled headers of what nearly every file includes: a third of an optimised build from nothing, a twentieth of one
-# without optimisation. For builds without a compiler
-# cache, such as those of continuous integration: caches cannot store what was compiled with them.
+# without optimisation. For builds without a compiler cache, such as those of continuous integration: caches cannot store
+# what was compiled with them.
 option(WISP_PRECOMPILE "Precompile the headers of Eigen, fmt, the standard library and the model" OFF)
 
 # wisp_precompiled(NAME HEADER...): a library that has them, for targets of the same options.
