@@ -151,14 +151,14 @@ void Explicit<dim>::points(const PointUpdate& update) {
   // Points are where their forces were gathered: the same cells are filled.
   const ActiveCells cells = active_cells(*model_.space, model_.bodies);
   const bool own = !update.strain_velocity.empty();
-  std::vector<double> gradients;
+  PointUpdate rest = update;
+  rest.strain = false, rest.strain_velocity = {};
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     smooth_gradients<dim>(*model_.space, model_.bodies, b, cells,
                           own ? update.strain_velocity : update.motion, own ? dim : motion_stride<dim>,
-                          gradients);
-    PointUpdate smooth = update;
-    smooth.gradients = gradients;
-    grid_to_points<dim>(*model_.space, model_.bodies[b], smooth);
+                          gradients_);
+    if (rest.velocity || rest.move) grid_to_points<dim>(*model_.space, model_.bodies[b], rest);
+    strain_points<dim>(model_.bodies[b], gradients_, update.dt);
   }
 }
 

@@ -81,6 +81,7 @@ class Explicit {
   // Arrays over functions; see explicit_transfer.h for the records.
   RecordArray sums_, motion_;
   std::vector<double> velocity_, strain_velocity_, acceleration_, loads_, right_side_, inertia_;
+  std::vector<double> gradients_;  // of one body, where forces are reconstructed
   BlockMatrix mass_{1}, ghost_mass_{1};
   BlockMatrix field_mass_{1};  // of the reconstructed density, for the acceleration
   ActiveCells mass_cells_;     // for which their pattern was made

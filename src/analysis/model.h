@@ -95,6 +95,7 @@ struct Model {
   std::string oversized_domain() const;
 
   std::vector<int> disorder_;  // of every body; kept, so that steps allocate nothing
+  OrderMemory order_memory_;   // likewise
 };
 
 }  // namespace wisp

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <new>
+#include <type_traits>
 
 namespace wisp {
 
@@ -86,13 +88,16 @@ namespace {
 /// overwritten values is kept aside, in a ring that stays in the cache as points do not go far.
 template <class T>
 void permute(std::vector<T>& field, const std::vector<int>& from, std::size_t first, std::size_t last,
-             std::size_t reach) {
+             std::size_t reach, std::vector<OrderMemory::Line>& memory) {
+  static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= sizeof(OrderMemory::Line));
   constexpr std::size_t block = 1024;
   const std::size_t mask = std::bit_ceil(reach + block) - 1;
-  std::vector<T> kept(mask + 1);
+  const std::size_t size = (mask + 1) * sizeof(T) / sizeof(OrderMemory::Line) + 1;
+  if (memory.size() < size) memory.resize(size);
+  T* const kept = static_cast<T*>(static_cast<void*>(memory.data()));
   for (std::size_t start = first; start < last; start += block) {
     const std::size_t end = std::min(start + block, last);
-    for (std::size_t p = start; p < end; ++p) kept[p & mask] = field[p];
+    for (std::size_t p = start; p < end; ++p) new (kept + (p & mask)) T(field[p]);
     for (std::size_t p = start; p < end; ++p) {
       const auto source = static_cast<std::size_t>(from[p]);
       field[p] = source < end ? kept[source & mask] : field[source];
@@ -103,13 +108,14 @@ void permute(std::vector<T>& field, const std::vector<int>& from, std::size_t fi
 }  // namespace
 
 template <int dim>
-void reorder(Body<dim>& body, int n_cells) {
+void reorder(Body<dim>& body, int n_cells, OrderMemory& memory) {
   const auto& cell = body.points.cell;
   const std::size_t n = cell.size();
-  std::vector<int> start(static_cast<std::size_t>(n_cells) + 1, 0);
+  std::vector<int>&start = memory.start, &from = memory.from;
+  start.assign(static_cast<std::size_t>(n_cells) + 1, 0);
   for (const int c : cell) ++start[static_cast<std::size_t>(c) + 1];
   for (std::size_t c = 0; c < static_cast<std::size_t>(n_cells); ++c) start[c + 1] += start[c];
-  std::vector<int> from(n);
+  from.resize(n);
   for (std::size_t p = 0; p < n; ++p)
     from[static_cast<std::size_t>(start[static_cast<std::size_t>(cell[p])]++)] = static_cast<int>(p);
 
@@ -122,7 +128,7 @@ void reorder(Body<dim>& body, int n_cells) {
       reach = std::max(reach, p - source);
   if (first == last) return;
   const auto move = [&](std::string_view, auto& field) {
-    if (!field.empty()) permute(field, from, first, last, reach);
+    if (!field.empty()) permute(field, from, first, last, reach, memory.kept);
   };
   body.for_each_field(move);
   move("cell", body.points.cell);
@@ -143,8 +149,8 @@ void remove(Body<dim>& body, const std::vector<char>& gone) {
 
 template Location locate<2>(Particles<2>&, const StructuredGrid<2>&, const Window<2>&);
 template Location locate<3>(Particles<3>&, const StructuredGrid<3>&, const Window<3>&);
-template void reorder<2>(Body<2>&, int);
-template void reorder<3>(Body<3>&, int);
+template void reorder<2>(Body<2>&, int, OrderMemory&);
+template void reorder<3>(Body<3>&, int, OrderMemory&);
 template void remove<2>(Body<2>&, const std::vector<char>&);
 template void remove<3>(Body<3>&, const std::vector<char>&);
 

@@ -1,5 +1,8 @@
 // Finding the cells of points, and keeping points in cell order.
 #pragma once
+#include <cstddef>
+#include <vector>
+
 #include "grid/structured.h"
 #include "grid/triangulation.h"
 #include "parallel/window.h"
@@ -21,10 +24,19 @@ Location locate(Particles<dim>& points, const StructuredGrid<dim>& grid, const W
 /// are the hints.
 Location locate(Particles<2>& points, const Triangulation& triangulation);
 
+/// What `reorder` works in, kept by the caller so that steps allocate nothing.
+struct OrderMemory {
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+  std::vector<int> start, from;  ///< of cells; of points
+  std::vector<Line> kept;        ///< values of one field that have been overwritten and are still needed
+};
+
 /// Sorts the points (and their material states) by cell; points of one cell keep their order. Moves one field
-/// at a time through a scratch array as long as the points' way.
+/// at a time through a ring of memory as long as the points' way.
 template <int dim>
-void reorder(Body<dim>& body, int n_cells);
+void reorder(Body<dim>& body, int n_cells, OrderMemory& memory);
 
 /// Removes the points for which `gone` is not 0; the rest keep their order.
 template <int dim>

@@ -46,11 +46,8 @@ struct PointUpdate {
   std::span<const double> motion;  ///< n_functions x motion_stride, for velocity and move
   std::span<const double>
       strain_velocity;  ///< n_functions x dim, for strain; empty: the velocity in `motion`
-  /// Of a body, n_points x dim x dim: velocity gradients for strain in place of those of the functions, where
-  /// they are not NaN; empty: none.
-  std::span<const double> gradients;
-  double flip = 1.0;  ///< share of FLIP: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p)
-  bool apic = false;  ///< PIC velocity and affine field
+  double flip = 1.0;    ///< share of FLIP: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p)
+  bool apic = false;    ///< PIC velocity and affine field
 };
 
 /// Updates the points of a body from the grid (Coombs 2023, eq. 8, 9; Jiang et al. 2015 for APIC). Steps that
@@ -58,6 +55,11 @@ struct PointUpdate {
 /// states are updated in place.
 template <int dim>
 void grid_to_points(const Space<dim>& space, Body<dim>& body, const PointUpdate& update);
+
+/// Deformation gradients and stresses of a body by given velocity gradients (1/s, n_points x dim x dim, row
+/// by row) over a step dt; material states are updated in place. For functions without domains.
+template <int dim>
+void strain_points(Body<dim>& body, std::span<const double> gradients, double dt);
 
 /// Domains l = l0 U_ii of a body with a finite-strain law (Charlton, Coombs and Augarde 2017); otherwise
 /// nothing: small-strain laws neglect the change of geometry.

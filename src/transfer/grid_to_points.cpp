@@ -1,8 +1,6 @@
 #include "tensor/spectral.h"
 #include "transfer/explicit_transfer.h"
 
-#include <cmath>
-
 namespace wisp {
 
 namespace {
@@ -28,6 +26,27 @@ Mat<dim> affine_field(const Space<dim>& space, const Stencil& stencil, const Vec
   return b;
 }
 
+/// Deformation gradient and stress of a point by the velocity gradient of a step.
+template <int dim, class Law, class State>
+inline __attribute__((always_inline)) void strain_point(const Law& law, State& state,
+                                                        const double (&gradient)[dim][dim], double dt,
+                                                        Mat<dim>& F) {
+  Kinematics<dim> kinematics;
+  kinematics.dt = dt;
+  double now[dim][dim];
+  for_short<dim>([&](int i) {
+    for_short<dim>([&](int j) { kinematics.dF(i, j) = (i == j ? 1.0 : 0.0) + dt * gradient[i][j]; });
+  });
+  for_short<dim>([&](int i) {
+    for_short<dim>([&](int j) {
+      now[i][j] = kinematics.dF(i, 0) * F(0, j);
+      for_short<dim - 1>([&](int k) { now[i][j] += kinematics.dF(i, k + 1) * F(k + 1, j); });
+    });
+  });
+  for_short<dim>([&](int i) { for_short<dim>([&](int j) { F(i, j) = now[i][j]; }); });
+  law.template stress<dim>(kinematics, state, state);
+}
+
 /// One pass over the points. `strain_from_motion`: strains use the velocity of `motion`, gathered once for
 /// all. Small tensors are handled number by number: what is written in several pieces and read in one makes
 /// the machine wait.
@@ -40,7 +59,6 @@ __attribute__((flatten)) void update_points(const Basis& basis, const Space<dim>
   const Law law = group.law;  // a copy: the compiler then knows that no point changes it
   const double* const motion = update.motion.data();
   const double* const strain_velocity = update.strain_velocity.data();
-  const double* const given = update.gradients.empty() ? nullptr : update.gradients.data();
   const double dt = update.dt, flip = update.flip, pic = 1.0 - update.flip;
   const bool apic = update.apic, domains = update.domains;
   const int n = points.size();
@@ -83,25 +101,8 @@ __attribute__((flatten)) void update_points(const Basis& basis, const Space<dim>
       });
     }
     if constexpr (with_strain) {
-      if (given != nullptr && !std::isnan(given[p * dim * dim]))
-        for (int d = 0; d < dim; ++d)
-          for (int e = 0; e < dim; ++e) gradient[d][e] = given[(p * dim + d) * dim + e];
-      Kinematics<dim> kinematics;
-      kinematics.dt = dt;
       Mat<dim>& F = deformation_gradient[p];
-      double now[dim][dim];
-      for_short<dim>([&](int i) {
-        for_short<dim>([&](int j) { kinematics.dF(i, j) = (i == j ? 1.0 : 0.0) + dt * gradient[i][j]; });
-      });
-      for_short<dim>([&](int i) {
-        for_short<dim>([&](int j) {
-          now[i][j] = kinematics.dF(i, 0) * F(0, j);
-          for_short<dim - 1>([&](int k) { now[i][j] += kinematics.dF(i, k + 1) * F(k + 1, j); });
-        });
-      });
-      for_short<dim>([&](int i) { for_short<dim>([&](int j) { F(i, j) = now[i][j]; }); });
-      auto& state = group.old[static_cast<std::size_t>(p)];
-      law.template stress<dim>(kinematics, state, state);
+      strain_point<dim>(law, group.old[static_cast<std::size_t>(p)], gradient, dt, F);
       if constexpr (Basis::uses_domains && Law::finite_strain)
         if (domains)
           half_length[p] = points.initial_half_length[static_cast<std::size_t>(p)].cwiseProduct(
@@ -145,6 +146,8 @@ void grid_to_points(const Space<dim>& space, Body<dim>& body, const PointUpdate&
     update_body<dim, true, true, true, true>(space, body, update);
   else if (update.velocity && update.move && !update.strain)
     update_body<dim, true, true, false, false>(space, body, update);
+  else if (!update.velocity && update.move && !update.strain)
+    update_body<dim, false, true, false, false>(space, body, update);
   else if (update.velocity && !update.move && !update.strain)
     update_body<dim, true, false, false, false>(space, body, update);
   else if (!update.velocity && update.move && update.strain && own)
@@ -153,6 +156,21 @@ void grid_to_points(const Space<dim>& space, Body<dim>& body, const PointUpdate&
     update_body<dim, false, false, true, false>(space, body, update);
   else
     throw std::logic_error("grid_to_points: this combination of updates belongs to no scheme");
+}
+
+template <int dim>
+void strain_points(Body<dim>& body, std::span<const double> gradients, double dt) {
+  std::visit(
+      [&](auto& group) {
+        const auto law = group.law;
+        for (std::size_t p = 0; p < group.old.size(); ++p) {
+          double gradient[dim][dim];
+          for (std::size_t d = 0; d < dim; ++d)
+            for (std::size_t e = 0; e < dim; ++e) gradient[d][e] = gradients[(p * dim + d) * dim + e];
+          strain_point<dim>(law, group.old[p], gradient, dt, body.points.deformation_gradient[p]);
+        }
+      },
+      body.material);
 }
 
 template <int dim>
@@ -202,6 +220,8 @@ BodyEnergy energy(const Body<dim>& body) {
 
 template void grid_to_points<2>(const Space<2>&, Body<2>&, const PointUpdate&);
 template void grid_to_points<3>(const Space<3>&, Body<3>&, const PointUpdate&);
+template void strain_points<2>(Body<2>&, std::span<const double>, double);
+template void strain_points<3>(Body<3>&, std::span<const double>, double);
 template void follow_stretch<2>(Body<2>&);
 template void follow_stretch<3>(Body<3>&);
 template double grid_kinetic_energy<2>(const Space<2>&, const Body<2>&, std::span<const double>, int);

@@ -1,7 +1,6 @@
 #include "transfer/reconstruction.h"
 
 #include <Eigen/Cholesky>
-#include <limits>
 
 #include "transfer/explicit_transfer.h"
 #include "transfer/filled_cells.h"
@@ -85,19 +84,32 @@ void smooth_gradients(const Space<dim>& space, const std::vector<Body<dim>>& bod
                       std::vector<double>& gradients) {
   constexpr int terms = TaylorBasis<dim>::terms;
   const Particles<dim>& points = bodies[body].points;
-  gradients.assign(points.position.size() * dim * dim, std::numeric_limits<double>::quiet_NaN());
+  gradients.resize(points.position.size() * dim * dim);
   const Vec<dim> none = Vec<dim>::Zero();
+  const auto gradient_at = [&](const auto& basis, const Vec<dim>& x) {
+    Mat<dim> gradient = Mat<dim>::Zero();
+    basis.tabulate(x, none).for_each([&](int, int i, double, const Vec<dim>& dphi) {
+      for (int d = 0; d < dim; ++d) gradient.row(d) += velocity[at(i) * stride + at(d)] * dphi.transpose();
+    });
+    return gradient;
+  };
+  const auto set = [&](std::size_t p, const Mat<dim>& gradient) {
+    for (int d = 0; d < dim; ++d)
+      for (int e = 0; e < dim; ++e) gradients[p * dim * dim + at(d * dim + e)] = gradient(d, e);
+  };
+  std::visit(
+      [&](const auto& basis) {
+        for (std::size_t p = 0; p < points.position.size(); ++p)
+          set(p, gradient_at(basis, points.position[p]));
+      },
+      space.basis());
   for_each_filled<dim>(
       space, bodies[body], cells_inside(space, cells, body), to_force_degree,
       [&](const auto& basis, const FilledCell<dim>& cell) {
         typename TaylorBasis<dim>::Square normal = TaylorBasis<dim>::Square::Zero();
         Eigen::Matrix<double, terms, dim* dim> right = Eigen::Matrix<double, terms, dim * dim>::Zero();
         for (const auto& g : cell.gauss) {
-          Mat<dim> gradient = Mat<dim>::Zero();
-          basis.tabulate(g.x, none).for_each([&](int, int i, double, const Vec<dim>& dphi) {
-            for (int d = 0; d < dim; ++d)
-              gradient.row(d) += velocity[at(i) * stride + at(d)] * dphi.transpose();
-          });
+          const Mat<dim> gradient = gradient_at(basis, g.x);
           const auto t = cell.taylor.at(g.x);
           normal += g.weight * t * t.transpose();
           for (int d = 0; d < dim; ++d)
@@ -108,7 +120,7 @@ void smooth_gradients(const Space<dim>& space, const std::vector<Body<dim>>& bod
           const auto p = static_cast<std::size_t>(q);
           const Eigen::Matrix<double, 1, dim* dim> own =
               cell.taylor.at(points.position[p]).transpose() * coefficient;
-          for (int k = 0; k < dim * dim; ++k) gradients[p * dim * dim + at(k)] = own[k];
+          set(p, Eigen::Map<const Mat<dim>>(own.data()).transpose());
         }
       });
 }

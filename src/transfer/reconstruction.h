@@ -24,7 +24,7 @@ void add_reconstruction(const Space<dim>& space, const std::vector<Body<dim>>& b
 /// reconstructed: in filled cells the L2 projection of grad v on the cell's Taylor basis, at the point. The
 /// reconstructed force does its work on that part of grad v alone. Strained by grad v itself, points would
 /// gather or lose energy by the rest, on which no force acts; a smooth gradient (linear in a cell) is left as
-/// it is. NaN in the first place of a point of another cell. `velocity`: `stride` numbers a function, the
+/// it is. At the points of other cells it is grad v. `velocity`: `stride` numbers a function, the
 /// first dim of them.
 template <int dim>
 void smooth_gradients(const Space<dim>& space, const std::vector<Body<dim>>& bodies, std::size_t body,

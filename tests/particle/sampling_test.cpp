@@ -145,7 +145,8 @@ TEST(Order, PutsPointsOfOneCellTogetherAndKeepsFieldsTogether) {
   Location found = locate(points, grid, window);
   EXPECT_EQ(found.outside, 0);
   EXPECT_GT(found.disorder, 0);
-  reorder(body, window.n_cells());
+  OrderMemory memory;
+  reorder(body, window.n_cells(), memory);
   EXPECT_TRUE(std::is_sorted(points.cell.begin(), points.cell.end()));
   found = locate(points, grid, window);
   EXPECT_EQ(found.disorder, 0);

@@ -86,7 +86,8 @@ Scene<dim> scene(const AnyLaw& law, int width, unsigned seed = 7) {
     points.initial_half_length = points.half_length;
   }
   locate(points, s.space->grid(), s.space->window());
-  reorder(s.body(), s.space->window().n_cells());
+  OrderMemory memory;
+  reorder(s.body(), s.space->window().n_cells(), memory);
   // Give every point a stress by a random strain.
   std::visit(
       [&](auto& group) {
