@@ -24,22 +24,32 @@ def curves(figure, titles, data):
     axes = figure.add_subplot()
     x, columns = data[:, 0], data[:, 1:]
     positive = columns[np.isfinite(columns) & (columns > 0)]
-    if positive.size and np.nanmin(columns) > 0 and positive.max() > 1e3 * positive.min():
+    # Not for a few values near zero, where a curve begins or ends.
+    if positive.size and np.nanmin(columns) > 0 and positive.max() > 1e3 * np.percentile(positive, 2):
         axes.set_yscale("log")
     if len(x) > 2 and x.min() > 0 and np.allclose(x[1:] / x[:-1], x[1] / x[0]):
         axes.set_xscale("log")  # a sequence of refinements
         axes.set_yscale("log")
-    for title, values in zip(titles[1:], columns.T):
+    cut = far_off(columns) if axes.get_yscale() == "linear" else np.zeros(columns.shape[1], dtype=bool)
+    for title, values, off in zip(titles[1:], columns.T, cut):
         known = np.isfinite(values)  # a curve may have fewer points than the others
-        axes.plot(x[known], values[known], linewidth=1.2, label=title)
+        axes.plot(x[known], values[known], linewidth=1.2, label=title + (" (cut)" if off else ""))
+    if cut.any():
+        low, high = np.nanmin(columns[:, ~cut]), np.nanmax(columns[:, ~cut])
+        axes.set_ylim(low - 0.5 * (high - low), high + 0.5 * (high - low))
     axes.set_xlabel(titles[0])
     if len(titles) == 2:
         axes.set_ylabel(titles[1])
     else:
-        beside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)} if len(titles) > 5 else {}
-        axes.legend(frameon=False, fontsize=8, **beside)
+        across = max(1, min(3, len(titles) - 1, 90 // max(len(title) for title in titles[1:])))
+        axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=across)
     axes.grid(True, color="#d9dee3", linewidth=0.6)
-    return axes
+
+
+def far_off(columns):
+    """Curves that would leave nothing to see of the others: unstable runs."""
+    span = np.nanmax(columns, axis=0) - np.nanmin(columns, axis=0)
+    return span > 20.0 * np.median(span) if len(span) > 2 else np.zeros(len(span), dtype=bool)
 
 
 def points(figure, titles, data):

@@ -22,12 +22,15 @@ struct Treatment {
   double deactivate_below = 0.0;
   bool ghost = false;
   int fmpm_order = 1;
+  Integration integration = Integration::points;
 };
 constexpr Treatment treatments[] = {
     {"consistent", Mass::consistent},       {"lumped", Mass::lumped},
     {"partially lumped", Mass::partial},    {"deactivated", Mass::consistent, 1e-2},
     {"FMPM(2)", Mass::fmpm, 0.0, false, 2}, {"FMPM(4)", Mass::fmpm, 0.0, false, 4},
     {"FMPM(8)", Mass::fmpm, 0.0, false, 8}, {"Ghost", Mass::consistent, 0.0, true}};
+constexpr Treatment reconstructed{"Ghost, stress reconstructed", Mass::consistent, 0.0, true, 1,
+                                  Integration::reconstructed};
 
 /// A line on how far a table is, where it is looked at while it runs.
 class Steps {
@@ -53,6 +56,7 @@ StripCase column(int across, int blocks, int points) {
 
 StripCase treated(StripCase s, const Treatment& t) {
   s.mass = t.mass, s.deactivate_below = t.deactivate_below, s.fmpm_order = t.fmpm_order;
+  s.integration = t.integration;
   if (t.ghost) s.ghost = GhostOptions{};
   return s;
 }
@@ -93,26 +97,53 @@ void write_side_by_side(const VerificationRequest& request, const std::string& n
                "Soil column: change of energy over the largest kinetic energy", energies);
 }
 
-std::vector<VerificationRow> blocks(const VerificationRequest& request) {
-  std::vector<VerificationRow> rows;
-  std::vector<StripCase> grids{column(1, 4, 12), column(1, 8, 12), column(2, 16, 12)};
-  if (request.full) grids.push_back(column(4, 32, 12)), grids.push_back(column(8, 64, 12));
-  std::vector<FigureColumn> errors{{"h [m]", {}}};
-  for (const auto& t : treatments) errors.push_back({t.name, {}});
-  std::vector<std::pair<std::string, StripRun>> shown;
-  Reference shown_reference;
-  std::vector<double> ghost;
-  double worst_condition = 0.0;
-  Steps steps("near-empty.blocks", 3 * std::size(treatments) + 2 * (grids.size() - 3));
-  for (const StripCase& grid : grids) {
-    errors.front().values.push_back(grid.length / grid.blocks);
+/// The study on blocks: every treatment on every grid.
+class Blocks {
+ public:
+  explicit Blocks(bool full) : grids_{column(1, 4, 12), column(1, 8, 12), column(2, 16, 12)} {
+    if (full) grids_.push_back(column(4, 32, 12)), grids_.push_back(column(8, 64, 12));
+    treatments_.assign(std::begin(treatments), std::end(treatments));
+    treatments_.push_back(reconstructed);
+    for (const auto& t : treatments_) errors_.push_back({t.name, {}});
+  }
+
+  std::vector<VerificationRow> run(const VerificationRequest& request) {
+    std::size_t number = 0;
+    for (const auto& grid : grids_)
+      number += static_cast<std::size_t>(std::count_if(treatments_.begin(), treatments_.end(),
+                                                       [&](const auto& t) { return wanted(grid, t); }));
+    Steps steps("near-empty.blocks", number);
+    for (const auto& grid : grids_) run_grid(grid, request, steps);
+    for (std::size_t k = 0; k < treatments_.size(); ++k) {
+      if (!treatments_[k].ghost) continue;
+      const double ratio = errors_[k].values.back() / errors_[k].values.front();
+      rows_.push_back(bound(std::string(treatments_[k].name) + ", finest over coarsest grid",
+                            "ratio of errors", ratio, ratio < 1.0 / 3.0));
+    }
+    rows_.push_back(bound("Ghost, all grids", "largest condition number of the mass", worst_condition_,
+                          worst_condition_ < 1e8));
+    std::vector<FigureColumn> columns{{"h [m]", {}}};
+    for (const auto& grid : grids_) columns.front().values.push_back(grid.length / grid.blocks);
+    columns.insert(columns.end(), errors_.begin(), errors_.end());
+    write_curves(request.folder, "near-empty.blocks",
+                 "Soil column: largest displacement error over five periods", columns);
+    return rows_;
+  }
+
+ private:
+  /// On the finest grids the others would take hours, and nothing is asked of them.
+  static bool wanted(const StripCase& grid, const Treatment& t) {
+    return grid.blocks <= 16 || t.mass == Mass::lumped || t.ghost;
+  }
+
+  void run_grid(const StripCase& grid, const VerificationRequest& request, Steps& steps) {
     double lumped = 0.0;
     Reference reference;
     std::vector<std::pair<std::string, StripRun>> runs;
-    for (std::size_t k = 0; k < std::size(treatments); ++k) {
-      const Treatment& t = treatments[k];
-      if (grid.blocks > 16 && t.mass != Mass::lumped && !t.ghost) {  // hours, and nothing is asked of them
-        errors[k + 1].values.push_back(std::nan(""));
+    for (std::size_t k = 0; k < treatments_.size(); ++k) {
+      const Treatment& t = treatments_[k];
+      if (!wanted(grid, t)) {
+        errors_[k].values.push_back(std::nan(""));
         continue;
       }
       StripCase s = treated(grid, t);
@@ -122,40 +153,46 @@ std::vector<VerificationRow> blocks(const VerificationRequest& request) {
       if (run.stable() && reference.time.empty()) reference = ulfem_reference(s, run.middle, run.time);
       const double error = run.stable() ? largest_error(run, reference) : std::nan("");
       steps.done(name + (run.stable() ? fmt::format(": error {:.3e} m", error) : ": unstable"));
-      errors[k + 1].values.push_back(error);
       if (run.stable()) {
-        rows.push_back(number(name, "largest displacement error (m)", error));
-        rows.push_back(number(name, "gain of energy / largest kinetic energy", energy_gain(run)));
+        rows_.push_back(number(name, "largest displacement error (m)", error));
+        rows_.push_back(number(name, "gain of energy / largest kinetic energy", energy_gain(run)));
       } else {
-        rows.push_back(number(name, "became unstable at (s)", run.end));
+        rows_.push_back(number(name, "became unstable at (s)", run.end));
       }
       if (t.mass == Mass::lumped) lumped = error;
+      if (t.ghost) judge(name, run, error, lumped, errors_[k].values);
+      errors_[k].values.push_back(error);
       runs.emplace_back(t.name, run);
-      if (!t.ghost) continue;
-      rows.push_back(bound(name, "stable over five periods", run.end, run.stable() && run.end > 2.0));
-      rows.push_back(bound(name, "lumping's error over Ghost's", lumped / error, lumped / error > 5.0));
-      if (!ghost.empty())
-        rows.push_back(bound(name, "error over that of the grid before", error / ghost.back(),
-                             error < 1.5 * ghost.back()));
-      ghost.push_back(error);
-      for (const double c : run.condition) worst_condition = std::max(worst_condition, c);
-      rows.push_back(number(name, "largest condition number of the mass",
-                            run.condition.empty()
-                                ? std::nan("")
-                                : *std::max_element(run.condition.begin(), run.condition.end())));
     }
-    if (grid.blocks == 8) shown = runs, shown_reference = reference;
+    if (grid.blocks != 8) return;
+    write_history(request, "near-empty.blocks-1x8", "Soil column, 1x8 blocks, every treatment", runs,
+                  reference, "ULFEM");
+    write_side_by_side(request, "near-empty.blocks-1x8", runs, reference);
   }
-  rows.push_back(bound("Ghost, finest over coarsest grid", "ratio of errors", ghost.back() / ghost.front(),
-                       ghost.back() < ghost.front() / 3.0));
-  rows.push_back(bound("Ghost, all grids", "largest condition number of the mass", worst_condition,
-                       worst_condition < 1e8));
-  write_curves(request.folder, "near-empty.blocks",
-               "Soil column: largest displacement error over five periods", errors);
-  write_history(request, "near-empty.blocks-1x8", "Soil column, 1x8 blocks, every treatment", shown,
-                shown_reference, "ULFEM");
-  write_side_by_side(request, "near-empty.blocks-1x8", shown, shown_reference);
-  return rows;
+
+  /// What a run with Ghost must do; `before`: its errors on the coarser grids.
+  void judge(const std::string& name, const StripRun& run, double error, double lumped,
+             const std::vector<double>& before) {
+    rows_.push_back(bound(name, "stable over five periods", run.end, run.stable() && run.end > 2.0));
+    rows_.push_back(bound(name, "lumping's error over Ghost's", lumped / error, lumped / error > 5.0));
+    if (!before.empty())
+      rows_.push_back(bound(name, "error over that of the grid before", error / before.back(),
+                            error < 1.5 * before.back()));
+    const double condition =
+        run.condition.empty() ? std::nan("") : *std::max_element(run.condition.begin(), run.condition.end());
+    worst_condition_ = std::max(worst_condition_, condition);
+    rows_.push_back(number(name, "largest condition number of the mass", condition));
+  }
+
+  std::vector<StripCase> grids_;
+  std::vector<Treatment> treatments_;
+  std::vector<FigureColumn> errors_;  // of every treatment, over the grids
+  std::vector<VerificationRow> rows_;
+  double worst_condition_ = 0.0;
+};
+
+std::vector<VerificationRow> blocks(const VerificationRequest& request) {
+  return Blocks(request.full).run(request);
 }
 
 std::vector<VerificationRow> delaunay(const VerificationRequest& request) {
