@@ -38,7 +38,7 @@ struct BSplineOptions {
   static constexpr auto keys() {
     return std::tuple{key("degree", &BSplineOptions::degree, "-",
                           "of the pieces, whose derivatives are continuous up to degree - 1; 1 is linear; "
-                          "built are 4 (2D) and 3 (3D), higher ones with WISP_SPLINE_DEGREE_2D and _3D")
+                          "at most 4 in 2D and 3 in 3D, unless built with more (WISP_SPLINE_DEGREE_2D, _3D)")
                           .at_least(1)
                           .at_most(std::max(highest_spline_degree(2), highest_spline_degree(3)))};
   }
