@@ -81,11 +81,11 @@ std::vector<ControlTriangle> control_triangles(const PowellSabinSplit& split, in
     const Vec<2>& x = triangulation.vertex(v);
     points.assign(1, x);
     for (const int t : triangulation.triangles_of_vertex(v)) {
-      points.push_back(x + (split.centre(t) - x) / degree);
+      points.emplace_back(x + (split.centre(t) - x) / degree);
       for (int k = 0; k < 3; ++k) {
         const auto& edge = triangulation.edge(triangulation.edge(t, k));
         if (edge.vertex[0] == v || edge.vertex[1] == v)
-          points.push_back(x + (split.edge_point(triangulation.edge(t, k)) - x) / degree);
+          points.emplace_back(x + (split.edge_point(triangulation.edge(t, k)) - x) / degree);
       }
     }
     ControlTriangleSearch search;

@@ -34,7 +34,7 @@ Triangulation triangulate_blocks(const StructuredGrid<2>& blocks, BlockSplit spl
       const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
       if (split == BlockSplit::four) {
         const int m = static_cast<int>(vertices.size());
-        vertices.push_back(0.5 * (vertices[at(a)] + vertices[at(c)]));
+        vertices.emplace_back(0.5 * (vertices[at(a)] + vertices[at(c)]));
         triangles.insert(triangles.end(), {{a, b, m}, {b, c, m}, {c, d, m}, {d, a, m}});
       } else if (split == BlockSplit::two || (i + j) % 2 == 0) {
         triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
@@ -195,7 +195,7 @@ class PolygonMesh {
         continue;
       }
       const int middle = static_cast<int>(vertices_.size());
-      vertices_.push_back(0.5 * (vertices_[at(s.a)] + vertices_[at(s.b)]));
+      vertices_.emplace_back(0.5 * (vertices_[at(s.a)] + vertices_[at(s.b)]));
       all.push_back({s.a, middle, s.ring, s.side});
       all.push_back({middle, s.b, s.ring, s.side});
     }

@@ -250,7 +250,7 @@ SolveReport LinearSolver::solve(const SystemMatrix& matrix, const DofMap& dofs, 
   x_.resize(b_.size());
   dofs.gather(rhs, b_);
   dofs.gather(solution, x_);
-  const SolveReport report = solve(matrix, b_, x_, keep);
+  SolveReport report = solve(matrix, b_, x_, keep);
   dofs.scatter(x_, solution, halo);
   return report;
 }

@@ -129,6 +129,7 @@ namespace {
 template <int dim>
 std::vector<Window<dim>> windows_of_all(const BoxPartition<dim>& partition, int margin) {
   std::vector<Window<dim>> result;
+  result.reserve(static_cast<std::size_t>(partition.n_parts()));
   for (int part = 0; part < partition.n_parts(); ++part) result.emplace_back(partition, part, margin);
   return result;
 }
