@@ -85,7 +85,7 @@ void add_polygon(const StructuredGrid<3>& grid, const Corners& corners, const Ve
       for (int q = 0; q < 3; ++q) {
         double share[3] = {a[rule], a[rule], a[rule]};
         share[q] = 1.0 - 2.0 * a[rule];
-        cut.position.push_back(share[0] * corners[0] + share[1] * corners[k] + share[2] * corners[k + 1]);
+        cut.position.emplace_back(share[0] * corners[0] + share[1] * corners[k] + share[2] * corners[k + 1]);
         cut.weight.push_back(w[rule] * part);
       }
   }
@@ -124,7 +124,7 @@ void add_part(const Vec<2>& a, const Vec<2>& b, const Vec<2>& normal, const Mult
   const Vec<2> middle = 0.5 * (a + b), half = 0.5 * (b - a);
   cut.parts.push_back({middle, normal, host, cut.position.size(), static_cast<std::size_t>(points)});
   for (int q = 0; q < points; ++q) {
-    cut.position.push_back(middle + r[points - 3][q] * half);
+    cut.position.emplace_back(middle + r[points - 3][q] * half);
     cut.weight.push_back(2.0 * half.norm() * w[points - 3][q]);
   }
 }
