@@ -49,7 +49,7 @@ def curves(figure, titles, data):
 def far_off(columns):
     """Curves that would leave nothing to see of the others: unstable runs."""
     span = np.nanmax(columns, axis=0) - np.nanmin(columns, axis=0)
-    return span > 20.0 * np.median(span) if len(span) > 2 else np.zeros(len(span), dtype=bool)
+    return span > 20.0 * np.nanmedian(span) if len(span) > 2 else np.zeros(len(span), dtype=bool)
 
 
 def points(figure, titles, data):
